@@ -212,7 +212,7 @@ fn take_hold(motions: &mut Vec<Sparse>, row: usize, entries: &Sparse) -> Option<
     let grips = motions.iter().map(grip).enumerate();
     let (place, grip) = grips.max_by(|(_, a), (_, b)| a.total_cmp(b))?;
     let cosine = grip / size(entries);
-    // False for NaN, too: a row of zeros.
+    // The cosine of a row of zeros is NaN, with which comparisons are false.
     let restricts = cosine > ROUND_OFF.sqrt();
     if !restricts {
         return None;

@@ -53,7 +53,7 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
         let (fastest, _) = self.residual(&self.position.speed(&state.v));
         let rate = self.metric.factor.length(&state.v.data.0[0]);
         let most = T::from_f64(MOST_ROUND_OFF) * round_off();
-        // False for NaN, too.
+        // Comparisons with NaN are false, so that a residual that is NaN counts as off.
         let (is_on, stays_on) = (
             worst <= most * self.coordinate_scale.size,
             fastest <= most * rate,
@@ -312,7 +312,7 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
         let moved = State::new(state.t, state.q + aside, state.v);
         let elsewhere = self.published(mechanism, &moved)?;
         let free = size.max(self.metric.factor.length(&elsewhere.data.0[0]));
-        // False for NaN, too.
+        // A comparison with NaN is false, so that an acceleration that is NaN is refused, too.
         let stays = size <= free * T::EPSILON.sqrt() && base == Some((state.q, state.v));
         if stays {
             Ok(SVector::zeros())

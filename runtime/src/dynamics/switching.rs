@@ -134,7 +134,7 @@ impl<T: Real> dyn Motion<T> + '_ {
         let (start, end) = self.ends();
         let Switch { value, rate } = self.rate(end, aim.index)?;
         let change = -(value / rate);
-        // False for NaN, too: a function that only just reaches zero.
+        // False where the function only just reaches zero: the change is then infinite or NaN.
         let worth = change.abs() > same && change.abs() < (end - start) * T::from_f64(0.1);
         Ok(worth.then(|| end + change))
     }

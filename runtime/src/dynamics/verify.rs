@@ -370,7 +370,7 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
         end: &State<T, N>,
     ) -> Result<(), DynamicsError<T>> {
         let (worst, _) = self.residual(&self.position.residual);
-        // False for NaN, too.
+        // A comparison with NaN is false, so that a residual that is NaN counts as large.
         let small = self.is_negligible(worst);
         if small || self.settings.stabilisation != Stabilisation::Projection {
             Ok(())
@@ -411,7 +411,7 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
         };
         let round_off = T::from_f64(ENERGY_ROUND_OFF) * T::EPSILON * (before.balance.abs() + size);
         let change = (after.balance - before.balance - supplied).abs();
-        // False for NaN, too.
+        // A comparison with NaN is false, so that an energy that is NaN does not count as kept.
         let kept = change <= part * size + uncertainty + round_off;
         if kept {
             Ok(())

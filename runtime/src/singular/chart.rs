@@ -259,7 +259,7 @@ fn orthonormalise<T: Real>(factor: &[T], vectors: &mut [T], duals: &mut [T], n: 
         }
         let lifted = &mut duals[i * n..(i + 1) * n];
         let size = norm(lifted);
-        // False for NaN, too.
+        // A comparison with NaN is false, so that a vector that is NaN counts as dependent.
         let enough = size > T::EPSILON;
         if !enough {
             return false;

@@ -143,7 +143,7 @@ impl<T: Real> Sheet<'_, T> {
                 break;
             }
             (place, aside) = (place - ahead, aside - off);
-            // False for NaN, too.
+            // A comparison with NaN is false, so that a place that is NaN is not inside.
             let inside = place.abs() < T::one();
             if !inside {
                 return Err(Obstacle::Unresolved);

@@ -196,7 +196,7 @@ impl<T: Real> Sheet<'_, T> {
             *entry = change.first();
         }
         let size = norm(gradient);
-        // False for NaN, too.
+        // A comparison with NaN is false, so that a gradient that is NaN counts as none.
         let changes = size > T::zero();
         if !changes {
             return Err(Obstacle::Unresolved);
@@ -265,7 +265,7 @@ impl<T: Real> Sheet<'_, T> {
         for entry in &mut *rows {
             *entry *= share;
         }
-        // False for NaN, too: where nothing moved, or was seen to.
+        // False where nothing moved, and where no row was seen to: the share is then NaN.
         share.abs() > T::zero()
     }
 
@@ -377,7 +377,7 @@ fn meeting<T: Real>(
     let mut nearest = T::from_f64(f64::INFINITY);
     for (i, value) in values.iter().enumerate() {
         let centre = -*value / slopes.row(i)[i];
-        // False for NaN.
+        // A comparison with NaN is false, so that a value that is and stays zero is passed over.
         if centre.abs() < nearest.abs() {
             nearest = centre;
         }

@@ -48,7 +48,7 @@ impl<T: Real> Sheet<'_, T> {
         }
         let speed = self.along(state.v);
         let square = speed * speed;
-        // False for NaN, too.
+        // A comparison with NaN is false, so that no nodes are kept where the speed is NaN.
         let moves = square > T::zero();
         if !moves {
             return;
@@ -93,7 +93,7 @@ impl<T: Real> Sheet<'_, T> {
         let half = T::from_f64(0.5);
         let (ahead, behind) = (places[0], places[BEYOND]);
         let centre = (ahead + behind) * half;
-        // False for NaN, too.
+        // A comparison with NaN is false, so that a centre that is NaN is not inside.
         let inside = centre.abs() <= hull::<T>(SIDE) * ((ahead - behind) * half).abs();
         if !inside {
             return None;

@@ -314,7 +314,7 @@ impl<T: Real> Sheet<'_, T> {
             found.predict(node, place, here, point.q);
             let shift = direction.shifted(distance);
             self.project_from(moved, (t, point.q), like, shift, workspace)?;
-            // False for NaN, too.
+            // A comparison with NaN is false, so that a node with a pivot that is NaN is not clear.
             let clear = self.frame.smallest() >= clearance::<T>() * found.spacing;
             if !clear {
                 return Err(Obstacle::Unresolved);
@@ -361,7 +361,7 @@ impl<T: Real> Sheet<'_, T> {
         for (along, column) in along.iter().zip(self.chart.tangents()) {
             add_scaled(bend.whole, -*along, column);
         }
-        // False for NaN, too: where the state is the accepted one.
+        // False where the state is the accepted one: the share is then NaN, a quotient of zeros.
         let known = bend.share.abs() < T::one();
         if !known {
             bend.whole.fill(T::zero());

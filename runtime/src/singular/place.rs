@@ -386,7 +386,7 @@ impl<T: Real> Sheet<'_, T> {
         let [last, before] = differences;
         let ratio = last / before;
         let least = T::from_f64(1e-3);
-        // NaN where both are zero.
+        // The ratio is NaN where both are zero, and comparisons with NaN are false.
         found.error = if ratio < T::one() {
             last * ratio.max(least)
         } else {

@@ -254,7 +254,7 @@ fn find_normals<T: Real>(
     let others = (0..count).filter(|k| *k != up && *k != down);
     let curved = others.fold(T::zero(), |most: T, k| most.max(value(k).abs()));
     let least = flat * flat / most;
-    // False for NaN, too.
+    // Comparisons with NaN are false: where all values are zero, there are no two sheets.
     let two = value(up) > least && -value(down) > least && curved <= flat;
     if !two {
         return false;
