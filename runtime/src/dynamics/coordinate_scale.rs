@@ -32,9 +32,9 @@ impl<T: Real> CoordinateScale<T> {
         self.size / self.range
     }
 
-    /// Takes note of coordinates `q`, which are used up, and up to which `sizes` none is looked
-    /// at again; `turns` tells which of them are angles that have gone round. Functions of an
-    /// angle have the round-off of an angle of one, however small it is.
+    /// Takes note of coordinates `q`, which are used up, and sets the `sizes` up to which they are
+    /// not looked at again; `turns` tells which of them are angles that have gone round. Functions
+    /// of an angle have at least the round-off of an angle of one.
     pub(super) fn extend(
         &mut self,
         structure: &Structure,

@@ -86,7 +86,7 @@ impl<'s, T: Real> dyn Constrained<T> + 's {
     }
 }
 
-/// The parts of a solver that are worked on through [`Constrained`].
+/// The parts of a solver that [`Constrained`] gives access to.
 pub(crate) struct SolverView<'a, T, const N: usize, const R: usize> {
     pub(crate) equations: Bound<'a, T, N, R>,
     pub(crate) metric: &'a mut Metric<T, N>,

@@ -14,7 +14,7 @@ use crate::tolerance::{regular, round_off};
 use crate::{Mechanism, Real, Settings, State};
 use nalgebra::SVector;
 
-/// Rounds in which held values are met, each to many more digits than the one before.
+/// Corrections that bring held values about, each to many more digits than the one before.
 const ROUNDS: usize = 4;
 /// What a value that is free weighs beside one that is held.
 const FREE: f64 = 1e-6;
