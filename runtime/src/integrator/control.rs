@@ -15,8 +15,8 @@ use nalgebra::SVector;
 const SMALLEST_TOLERANCE: f64 = 10.0;
 /// Steps below this multiple of the round-off of time are refused.
 pub(crate) const SMALLEST_STEP: f64 = 4.0;
-/// Power of round-off that a step beside a singular configuration is given up at, in units of
-/// the longest one (4e-11 for `f64`).
+/// A step beside a singular configuration is given up below this power of round-off, in units of
+/// the longest step (4e-11 for `f64`).
 const CREEPING: f64 = 2.0 / 3.0;
 /// The next step aims at this fraction of the step that would just pass.
 const SAFETY: f64 = 0.9;
@@ -186,7 +186,7 @@ pub(crate) fn check_bound<T: Real>(t: T, bound: T) -> Result<(), IntegrateError<
 pub(crate) struct Gains {
     /// Exponent of the error.
     pub(crate) reaction: f64,
-    /// Exponent of the error before.
+    /// Exponent of the error of the step before.
     pub(crate) memory: f64,
 }
 
