@@ -16,9 +16,10 @@ pub(super) struct Columns {
     addresses: Vec<Address>,
     /// The number of turns of each column, and its array's name if it is needed.
     columns: Vec<(usize, Option<Ident>)>,
-    /// How many of these are made by the call for the angles: the sines and the cosines.
+    /// How many of the columns are made by the call for the angles: the sines and the cosines.
     angles: usize,
-    /// Of each definition, whether a loop reads it from its column although it stands by itself.
+    /// For each definition, whether a loop reads it from its column although it stands outside of
+    /// all loops.
     read_in_turns: Vec<bool>,
 }
 

@@ -76,7 +76,7 @@ pub(super) struct Written {
     pub body: Body,
     /// `state`, or `_state` where the body does not read it.
     pub state: Ident,
-    /// `acceleration`, likewise.
+    /// `acceleration`, or `_acceleration` where the body does not read it.
     pub acceleration: Ident,
     /// What it costs, in words.
     pub cost: String,
@@ -152,7 +152,7 @@ impl Subject<'_> {
         self.with_arguments(computed, body)
     }
 
-    /// The body that runs a program; says what it costs, and what it would as derived.
+    /// The body that runs a program; says what it costs, and what it would cost as derived.
     pub fn optimised(
         &self,
         computed: &Optimised,
@@ -213,7 +213,7 @@ fn body_of_list(program: &Program, loops: Loops) -> Body {
     )
 }
 
-/// What a program costs, and what it would as derived.
+/// What a program costs, and what it would cost as derived.
 pub(super) fn cost_in_words(computed: &Optimised) -> String {
     let Optimised { cost, derived, .. } = computed;
     match derived == cost {
