@@ -72,7 +72,7 @@ impl Comparison {
         self.times.iter().enumerate().map(row).collect()
     }
 
-    /// The same at some of the times, by their places.
+    /// This comparison at some of its times, by their places.
     pub fn thinned(&self, places: &[usize]) -> Self {
         let some = |values: &[f64]| places.iter().map(|i| values[*i]).collect();
         let series = |series: &Series| Series {

@@ -207,7 +207,7 @@ impl CommandError {
         }
     }
 
-    /// The same, with what became of the rows of the run.
+    /// This error, with what became of the rows of the run.
     pub fn with(self, kept: String) -> Self {
         match self {
             Self::Run { reason, .. } => Self::Run { reason, kept },

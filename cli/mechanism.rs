@@ -92,8 +92,8 @@ pub fn description(name: &str) -> Result<Description, CommandError> {
     })
 }
 
-/// The same mechanism in numbers of 106 bits, in a program of its own: few commands ask
-/// for them, and everyone who builds the command would pay for their code.
+/// A mechanism of the library in numbers of 106 bits, in a program of its own: few commands ask for
+/// them, and everyone who builds the command would pay for their code.
 ///
 /// # Errors
 ///

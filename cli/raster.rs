@@ -17,7 +17,8 @@ use svg2pdf::{ConversionOptions, PageOptions};
 
 /// Pixels of a PNG for each of the drawing: enough for print in the column of a journal.
 const SHARP: f32 = 3.0;
-/// The same in print, where a pixel of the drawing is 1/96 inch: 600 dots per inch.
+/// Pixels of a PNG for print for each of the drawing, whose pixels are 1/96 inch: 600 dots per
+/// inch.
 const PRINTED: f32 = 6.25;
 /// Pixels of the drawing in an inch.
 const PER_INCH: f32 = 96.0;

@@ -21,7 +21,8 @@ const STATES: usize = 100;
 /// Round-off of an acceleration, relative to the largest of the chain.
 const ROUND_OFF: f64 = 1e-12;
 
-/// The same for a dense mass matrix, whose condition is that of joint angles.
+/// Round-off of an acceleration by a dense mass matrix, whose condition is that of joint angles,
+/// relative to the largest of the chain.
 const DENSE_ROUND_OFF: f64 = 1e-10;
 
 /// How far two runs of a second may be apart (rad).

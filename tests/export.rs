@@ -12,7 +12,7 @@ fn bricard(folder: &Path, arguments: &[&str]) -> Ran {
     bricard_with(None, folder, arguments)
 }
 
-/// The same with another `PATH`, where the compiler is looked for.
+/// The command in a folder, with another `PATH` to look for the compiler in, if one is given.
 fn bricard_with(path: Option<&Path>, folder: &Path, arguments: &[&str]) -> Ran {
     let mut command = Command::new(env!("CARGO_BIN_EXE_bricard"));
     command.current_dir(folder).env("XDG_CACHE_HOME", cache());

@@ -49,7 +49,7 @@ const CART: &str = "mechanism Cart { param m: kg = 1; param l: m = 2; const g: m
     coord x: m; coord a: rad; let P = [x + l*sin(a), -l*cos(a)];
     kinetic 1/2*m*der(x)^2 + 1/2*m*norm2(der(P)); potential m*g*P.y; start { a = 1; } }";
 
-/// The same mass at a distance that does not turn.
+/// The cart with its mass at a distance that does not turn.
 const SLIDES: &str = "mechanism Cart { param m: kg = 1; param l: m = 2; const g: m/s^2 = 9.81;
     coord x: m; coord a: m; let P = [x + a, -l];
     kinetic 1/2*m*der(x)^2 + 1/2*m*norm2(der(P)); potential m*g*P.y*a/l; start { a = 1; } }";

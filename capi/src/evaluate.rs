@@ -39,9 +39,10 @@ pub enum Quantity {
     Rank,
     /// `∂q̈/∂(q, q̇, u)`, a row of [`Quantity::varied`] for each acceleration.
     Slope,
-    /// The same of the outputs.
+    /// `∂y/∂(q, q̇, u)`, a row of [`Quantity::varied`] for each output.
     OutputSlope,
-    /// The same of the functions of the events.
+    /// Derivatives of the functions of the events by `(q, q̇, u)`, a row of [`Quantity::varied`]
+    /// for each event.
     EventSlope,
 }
 

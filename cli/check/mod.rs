@@ -43,7 +43,8 @@ pub fn check(arguments: &Check) -> Result<(), CommandError> {
     print(&in_order(&file, &mechanism))
 }
 
-/// The same as a finding: at the place where another encoding shows, else at the beginning.
+/// Why a file can't be read, as a finding: at the place where another encoding shows, else at the
+/// beginning.
 fn unread(error: &CommandError) -> Diagnostics {
     let finding = match error {
         CommandError::Read(_, error) => error.get_ref().and_then(|e| e.downcast_ref()),

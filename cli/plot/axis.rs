@@ -132,7 +132,7 @@ impl Axis {
         found.unwrap_or_else(|| Self::numbers(range, 1))
     }
 
-    /// The same with what `text` makes of them.
+    /// At most so many numbers, written as `text` has them.
     pub fn labelled(range: (f64, f64), most: usize, text: impl Fn(f64) -> String) -> Self {
         let ticks = Even::new(range, most, 0).ticks();
         Self {
@@ -174,7 +174,7 @@ impl Axis {
         self.note_at(area, (px(left, 11), HPos::Left))
     }
 
-    /// The same below an axis, up to a distance from the right (pixels).
+    /// Draws what numbers leave out below an axis, up to a distance from the right (pixels).
     ///
     /// # Errors
     ///
@@ -236,7 +236,7 @@ fn decimal(count: f64, exponent: i32) -> String {
     text.replace('-', "−")
 }
 
-/// The same where it may be long.
+/// A whole number times a power of ten, which is written as such where it has many digits.
 fn long(count: f64, exponent: i32) -> String {
     let power = count.log10().floor() as i32;
     match exponent >= -15 && power + exponent < 15 {

@@ -11,7 +11,7 @@ const MARGIN: f64 = 0.06;
 /// The least range shown, as a fraction of the values: what is nearly constant
 /// should look so.
 const FLAT: f64 = 1e-3;
-/// The same for what is constant altogether.
+/// The least range shown of what is constant altogether, as a fraction of its value.
 const CONSTANT: f64 = 0.1;
 /// Values larger than this have no place on an axis, whose length would be infinite.
 const LARGEST: f64 = 1e300;

@@ -32,7 +32,7 @@ const MOST_ROWS: f64 = 1e10;
 /// method are too long for a smooth curve.
 const PLOTTED: f64 = 1000.0;
 
-/// The same for each second of a page, on which the mechanism moves, and the most of them.
+/// Intervals for each second of a page, on which the mechanism moves, and the most of them.
 const FRAMES: f64 = 100.0;
 const MOST_FRAMES: f64 = 6000.0;
 

@@ -33,7 +33,7 @@ pub struct Picture<'a> {
     pub shown: &'a Shown,
     /// What was done.
     pub report: Option<&'a Report>,
-    /// The same in words.
+    /// What was done, in words.
     pub summary: Vec<[String; 2]>,
     /// Why it ended early.
     pub error: Option<String>,

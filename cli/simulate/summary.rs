@@ -57,7 +57,7 @@ pub fn quantities(
     rows
 }
 
-/// The same in one line.
+/// What was done and how well, in one line.
 pub fn line(report: &Report, structure: &Structure, settings: &Settings<f64>) -> String {
     let [what, error] = energy(report, structure);
     let mut line = format!("{} steps, {what} {error}", report.steps);
@@ -72,7 +72,7 @@ pub fn line(report: &Report, structure: &Structure, settings: &Settings<f64>) ->
     line
 }
 
-/// The same as one JSON object.
+/// What was done and how well, as one JSON object.
 pub fn json(report: &Report, structure: &Structure, error: Option<&CommandError>) -> Value {
     let passages: Vec<f64> = report.passages.iter().map(|passage| passage.t).collect();
     let events = report.events.iter();

@@ -48,7 +48,8 @@ const MOST_STEPS: usize = 400;
 
 /// Functions of states within a step are off by this part of its accepted error.
 const NOISE: f64 = 0.01;
-/// The same in units of round-off, at least and with fixed steps.
+/// The least that such functions are off by, and what they are off by with fixed steps, in units of
+/// round-off.
 const NOISE_OF_FIXED: f64 = 4096.0;
 
 /// What functions of states within a step are off by, relative to their size there, if steps

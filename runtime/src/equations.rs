@@ -40,7 +40,7 @@ impl<T: Real> At<'_, T> {
 }
 
 impl<T: Real, const N: usize> State<T, N> {
-    /// The same over slices.
+    /// The state over slices.
     pub(crate) fn at(&self) -> At<'_, T> {
         At {
             t: self.t,

@@ -339,7 +339,8 @@ pub struct Partials<'a, T> {
     pub force_by_input: &'a mut [T],
     /// `∂y/∂(q, q̇, q̈, u)`, a row of `3 N + U` for each output.
     pub outputs: &'a mut [T],
-    /// The same for the function of each event.
+    /// Derivatives of the functions of the events by `(q, q̇, q̈, u)`, a row of `3 N + U` for each
+    /// event.
     pub events: &'a mut [T],
 }
 

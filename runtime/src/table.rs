@@ -42,8 +42,8 @@ impl Table {
         self.within(self.interval(x), order, x)
     }
 
-    /// The same on the interval that is held from the switching function `first` on, if one
-    /// is.
+    /// The derivative of an order, on the interval that is held from the switching function `first`
+    /// on, if one is.
     pub fn held<T: Real>(&self, order: u8, x: T, sides: Sides, first: u32) -> T {
         let interval = match sides.code(first, self.bits()) {
             Some(code) => decoded(code),

@@ -122,7 +122,8 @@ pub(crate) fn definite<T: Real>() -> T {
     regular::<T>() * regular()
 }
 
-/// Whether the smallest squared sine of the constraint rows is above a bound. NaN is not.
+/// Whether the smallest squared sine of the constraint rows is above a bound. NaN does not count as
+/// above it.
 pub(crate) fn passes<T: Real>(squared_sine: T, bound: T) -> bool {
     squared_sine > bound * bound
 }

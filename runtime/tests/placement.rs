@@ -87,7 +87,7 @@ where
     })
 }
 
-/// The same placements of the exact reduction of a mechanism.
+/// All placements of the exact reduction of a mechanism with one method and step size.
 fn reduced_placements<I: Integrator<f64, 1>>(
     method: impl Fn() -> I,
     name: Method,

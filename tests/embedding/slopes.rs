@@ -27,7 +27,7 @@ fn crank() -> (Crank, State<f64, 3>, f64) {
     (engine, state, input)
 }
 
-/// The same of a motor.
+/// An engine of a motor at a state, and what its input is held at.
 fn motor() -> (Turned, State<f64, 2>, f64) {
     let mut engine = Turned::new().expect("the default options are some");
     let input = 1.5;

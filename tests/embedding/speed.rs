@@ -28,7 +28,7 @@ fn moved_in_rust() -> State<f64, 3> {
     state
 }
 
-/// The same through the C interface.
+/// Assembles the mechanism, and moves it through the C interface.
 #[inline(never)]
 fn moved_through_the_boundary() {
     // SAFETY: the table is there for this version, and the handle is what `create` gave.

@@ -25,7 +25,8 @@ pub fn collected(words: &[&str]) -> Result<Option<f64>, Box<dyn Error>> {
     collect(None, words)
 }
 
-/// The same where every instruction is known.
+/// Instructions of the running program from beginning to end, called with some words, all of which
+/// this valgrind has to know.
 ///
 /// # Errors
 ///

@@ -55,7 +55,7 @@ impl Random {
         self.between(low.ln(), high.ln()).exp()
     }
 
-    /// The same with either sign.
+    /// A number of either sign whose size lies between two, its logarithm spread evenly.
     pub fn signed_decade(&mut self, low: f64, high: f64) -> f64 {
         self.sign() * self.decade(low, high)
     }

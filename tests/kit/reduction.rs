@@ -47,7 +47,7 @@ impl Reduction {
         }
     };
 
-    /// The same with the moment `10 − 2 q̇₁`.
+    /// Phong & Hoang (2012), Example 1, with the moment `10 − 2 q̇₁`.
     pub const SLIDER_CRANK_DRIVEN: Self = Self {
         drive: 10.0,
         damping: 2.0,

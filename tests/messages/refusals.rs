@@ -338,7 +338,7 @@ pub const PARQUET: Case = (
      `--out run.csv`",
 );
 
-/// The same by a command that was built without them.
+/// What is said of Parquet files by a command that was built without them.
 pub const WITHOUT_PARQUET: Case = (
     "FileKind",
     "simulate slider_crank --out run.parquet",

@@ -12,7 +12,8 @@ use crate::trial::{Compare, Trial};
 const INVARIANT: f64 = 1e-5;
 /// What a row may be off by: this multiple of the tolerance.
 const MULTIPLE: f64 = 1e4;
-/// The same where motions turn sharply, and short runs.
+/// What a row may be off by where motions turn sharply, in short runs: this multiple of the
+/// tolerance.
 const OF_TURNING: f64 = 300.0;
 /// What the references themselves may be off by.
 const REFERENCE: f64 = 1e-9;

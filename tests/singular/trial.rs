@@ -18,8 +18,8 @@ pub enum Compare {
     Reduction(&'static str),
     /// Nothing: for chaotic motions, and where no reduction exists.
     Invariants,
-    /// The same where velocities turn within the time in which errors are made: positions,
-    /// and velocities at the end.
+    /// A reduction without constraints, by its name, where velocities turn within the time in which
+    /// errors are made: positions are compared, and velocities at the end.
     Turning(&'static str),
     /// The curve of the almost parallelogram, followed by its tangent.
     Along,
@@ -82,12 +82,12 @@ impl Trial {
         }
     }
 
-    /// The same for another time.
+    /// This run up to another time.
     pub fn until(self, until: f64) -> Self {
         Self { until, ..self }
     }
 
-    /// The same without counting passages.
+    /// This run without counting passages.
     pub fn uncounted(self) -> Self {
         let passages = None;
         Self { passages, ..self }

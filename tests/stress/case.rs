@@ -63,7 +63,7 @@ impl Case {
         self.options_by(self.method, self.tolerance)
     }
 
-    /// The same by another method.
+    /// How it is run by another method, with another tolerance.
     pub fn options_by(&self, method: Method, tolerance: f64) -> Options<f64> {
         let step_control = StepControl::Adaptive {
             relative: tolerance,

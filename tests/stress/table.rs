@@ -82,8 +82,8 @@ fn every_case_ends_in_a_right_answer_or_an_error_that_says_when_and_why() {
     );
 }
 
-/// The same text without what is round-off in it: the digits of long numbers, tiny
-/// numbers, and the times after the start at which runs failed.
+/// A text without what is round-off in it: the digits of long numbers, tiny numbers, and the times
+/// after the start at which runs failed.
 fn shortened(text: &str) -> String {
     let words: Vec<&str> = text.split(' ').collect();
     let after = |i: usize| i.checked_sub(2).map(|before| &words[before..i]);

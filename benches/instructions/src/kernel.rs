@@ -41,11 +41,12 @@ enum Work {
     /// An acceleration and the way back onto the constraints, near the position where
     /// all rods of a row lie in one line.
     Robust,
-    /// The same near the position where the rods of one swing of many do.
+    /// An acceleration and the way back onto the constraints, near the position where the rods of
+    /// one swing of many lie in one line.
     Turning,
     /// Eight seconds.
     Run(Method),
-    /// The same by `simulate`.
+    /// Eight seconds by `simulate`.
     Simulated(Method, Audit),
 }
 

@@ -24,7 +24,7 @@ pub fn coriolis_matrix(graph: &mut Graph, mass: &Matrix) -> Matrix {
 struct Slopes {
     /// `∂m_ij/∂q_k`, by `(i, j)` and `k`.
     by_entry: BTreeMap<(usize, usize), BTreeMap<usize, ExprId>>,
-    /// Those `k` for which `∂m_ik/∂q_j` is among them, by `(i, j)`.
+    /// The `k` for which `∂m_ik/∂q_j` is one of these derivatives, by `(i, j)`.
     columns: BTreeMap<(usize, usize), Vec<usize>>,
 }
 

@@ -1,7 +1,7 @@
 //! Connected components of the constraints and the mass matrix.
 //!
 //! In:  the constraints `g`, their Jacobian `A` and the velocity `b`; `M`.
-//! Out: coordinates that are tied together, and the rows that do.
+//! Out: coordinates that are tied together, and the rows that tie them.
 //!
 //! Rows of different components have no coordinate in common, neither in their entries nor in
 //! what these depend on: the constraint set is the product of those of its components. Nor has

@@ -43,7 +43,7 @@ pub(super) fn of_coordinates<A: Arithmetic>(
     rest
 }
 
-/// By shared velocity: the places of its parts and their coefficients.
+/// For each shared velocity, the places of its parts and their coefficients.
 pub(super) fn parts(reduced: &Reduced) -> Vec<Vec<(usize, ExprId)>> {
     let mut parts = vec![Vec::new(); reduced.count];
     for &(row, place, entry) in &reduced.links {

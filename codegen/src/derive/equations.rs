@@ -12,7 +12,7 @@ pub struct Equations {
     /// `M`, `N × N`; none where `inertia` is all that the code is made of: without constraints,
     /// nothing needs the entries.
     pub mass: Option<Matrix>,
-    /// `M q̈`, `N`, of which functions compute `M`, where writing its entries down is longer.
+    /// `M q̈`, `N`, where writing down the entries of `M` is longer; functions compute `M` from it.
     pub inertia: Option<Vec<ExprId>>,
     /// `C q̇` and the terms of moving frames: `d/dt ∂T/∂q̇ − M q̈ − ∂T/∂q`, `N`.
     pub coriolis: Vec<ExprId>,
@@ -45,7 +45,8 @@ pub struct Equations {
     pub energies: Energies,
     /// Equations of the start for positions, those that are held first: `g` and `∂g/∂q`.
     pub start_positions: StartRows,
-    /// Equations of the start for velocities, likewise: `b` and `A` of `A q̇ + b = 0`.
+    /// Equations of the start for velocities, those that are held first: `b` and `A` of `A q̇ + b =
+    /// 0`.
     pub start_velocities: StartRows,
 }
 
@@ -55,7 +56,7 @@ impl Equations {
         (self.force.len(), self.jacobian.len())
     }
 
-    /// What is written down of inertia: `M q̈`, or else the entries of `M`.
+    /// The form in which inertia is written down: `M q̈`, or else the entries of `M`.
     pub fn inertial(&self) -> Vec<ExprId> {
         let entries = || self.mass.iter().flatten().flatten().copied().collect();
         self.inertia.clone().unwrap_or_else(entries)
@@ -87,14 +88,14 @@ impl Equations {
     }
 }
 
-/// Coordinates that constraints or `M` tie together, and the rows that do.
+/// Coordinates that constraints or `M` tie together, and the rows of these constraints.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct ConnectedComponent {
     /// Coordinates, in their order.
     pub coordinates: Vec<usize>,
     /// Rows of `A`, in their order.
     pub rows: Vec<usize>,
-    /// They restrict positions only, to the same ones at all times.
+    /// Whether the rows restrict positions only, to the same ones at all times.
     pub scleronomic: bool,
 }
 

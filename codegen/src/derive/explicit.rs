@@ -23,9 +23,9 @@ pub(super) struct Explicit {
 
 /// What the start says of coordinates, by their places.
 struct Starts {
-    /// Their values or velocities are held.
+    /// Whether their values or velocities are held.
     held: BTreeSet<usize>,
-    /// Their values are held or guessed.
+    /// Whether their values are held or guessed.
     placed: BTreeSet<usize>,
 }
 
@@ -73,7 +73,8 @@ pub(super) fn explicit(mechanism: &mut Mechanism) -> Vec<Explicit> {
         };
         let mut insert = |e: &mut ExprId| *e = inserted(graph, *e, coordinate, value);
         residuals.iter_mut().for_each(&mut insert);
-        // Earlier ones may contain it: a chain in any order.
+        // Values that were found earlier may contain this coordinate: a chain may stand in any
+        // order.
         found.iter_mut().for_each(|e| insert(&mut e.value));
         found.push(Explicit {
             coordinate,
@@ -84,7 +85,7 @@ pub(super) fn explicit(mechanism: &mut Mechanism) -> Vec<Explicit> {
     found
 }
 
-/// The coordinate that an equation gives; of several the one declared last, since
+/// The coordinate that an equation gives; if it gives several, the one declared last, since
 /// descriptions go from the ground outwards.
 fn solved(graph: &mut Graph, residual: ExprId, starts: &Starts) -> Option<(usize, ExprId)> {
     let symbols = graph.symbols(residual);

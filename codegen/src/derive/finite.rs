@@ -1,7 +1,7 @@
 //! Equations with a number in them that no `f64` holds.
 //!
 //! In:  a mechanism and its equations.
-//! Out: an error at the statements of which such a number comes.
+//! Out: an error at the statements from which such a number comes.
 //!
 //! Each statement is made of finite numbers, but differentiation multiplies them with one
 //! another and with exponents, sums of statements add them, and a solve squares the entries of
@@ -23,7 +23,7 @@ const HELP: &str = "declare quantities and choose units so that numbers and thei
 ///
 /// # Errors
 ///
-/// A number that is not, at the statements that are responsible.
+/// A number that is not finite, at the statements that are responsible.
 pub(super) fn check(mechanism: &Mechanism, equations: &Equations) -> Result<(), Diagnostics> {
     let statements = statements(mechanism);
     let besides = statements.iter().flat_map(|(_, parts)| parts.clone());
@@ -58,7 +58,7 @@ fn together(spans: &[Span]) -> Diagnostic {
     spans.fold(error, |error, span| error.also(span, "and of this"))
 }
 
-/// All statements with formulas, and these.
+/// All statements that have formulas, with these formulas.
 fn statements(mechanism: &Mechanism) -> Vec<(Span, Vec<ExprId>)> {
     let m = mechanism;
     let rows = m.start_equations.iter().chain(&m.start_guesses);
@@ -73,8 +73,8 @@ fn statements(mechanism: &Mechanism) -> Vec<(Span, Vec<ExprId>)> {
     all.chain(starts).chain(outputs).chain(events).collect()
 }
 
-/// Whether formulas, or their first two derivatives, have a number that is not finite; of
-/// constraints also whether the squares of their slopes do.
+/// Whether formulas, or their first two derivatives, have a number that is not finite; for
+/// constraints, also whether the squares of their slopes have one.
 fn overflows(graph: &mut Graph, parts: &[ExprId], is_row: bool) -> bool {
     let moves = |s: &Symbol| {
         matches!(
@@ -84,7 +84,7 @@ fn overflows(graph: &mut Graph, parts: &[ExprId], is_row: bool) -> bool {
     };
     let symbols = parts.iter().flat_map(|e| graph.symbols(*e));
     let symbols: Vec<Symbol> = symbols.filter(moves).collect();
-    // Each at a rate of its own, so that no derivatives cancel one another.
+    // Each symbol changes at a rate of its own, so that no derivatives cancel one another.
     let seeds = symbols.iter().zip(0..);
     let seeds = seeds.map(|(s, i)| (*s, graph.symbol(Symbol::Acceleration(i))));
     let mut direction = Direction::new(seeds.collect());

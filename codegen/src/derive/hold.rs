@@ -19,7 +19,7 @@ pub struct Switch {
     pub function: ExprId,
     /// The expression that it was first met in.
     pub met_in: ExprId,
-    /// What that which it decides does where it is zero.
+    /// What happens where the function is zero to what depends on its sign.
     pub discontinuity: Discontinuity,
 }
 
@@ -56,7 +56,7 @@ impl Graph {
         switches.known[&root]
     }
 
-    /// The same for one node whose children are done.
+    /// Makes what jumps or kinks in one node depend on switching functions, after its children.
     fn hold_node(&mut self, e: ExprId, switches: &mut Switches) -> ExprId {
         let of = |x: &ExprId| switches.known[x];
         let zero = self.integer(0);
@@ -85,7 +85,7 @@ impl Graph {
                         held,
                         ..comparison.into()
                     });
-                // Zero at zero, where nothing is held.
+                // Where no side is held, the sign of zero is zero.
                 let rest = self.select(at_most, zero, x, zero, minus);
                 self.select(less, zero, x, one, rest)
             }
@@ -109,7 +109,7 @@ impl Graph {
         }
     }
 
-    /// `if a < b then … else …`, where the two are equal for equal `a` and `b`.
+    /// `if a < b then … else …`, where both branches are equal for equal `a` and `b`.
     fn select_less(
         &mut self,
         switches: &mut Switches,
@@ -125,7 +125,7 @@ impl Graph {
         self.select(test, a, b, then, otherwise)
     }
 
-    /// The first of the switching functions that tell an interval of a table; none if it
+    /// The first of the switching functions that tell an interval of a table; none if the interval
     /// never changes.
     fn interval(
         &mut self,

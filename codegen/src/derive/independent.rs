@@ -27,7 +27,7 @@ impl Equations {
             columns.map(|(j, entry)| (j, *entry)).collect()
         };
         let rows: Vec<Vec<(usize, ExprId)>> = self.jacobian.iter().map(entries).collect();
-        // In how many of the rows that are left a coordinate is.
+        // For each coordinate, the number of the rows left that contain it.
         let mut shared = vec![0_usize; self.force.len()];
         for (j, _) in rows.iter().flatten() {
             shared[*j] += 1;
@@ -35,7 +35,8 @@ impl Equations {
         let mut left: Vec<usize> = (0..rows.len()).collect();
         loop {
             let before = left.len();
-            // Descriptions go from the ground outwards, and the outermost bodies are free.
+            // From the last row to the first: descriptions go from the ground outwards, and only
+            // the outermost bodies have coordinates in no other row.
             for row in left.clone().into_iter().rev() {
                 let own = |j: usize| shared[j] == 1;
                 let entries = rows[row].iter().filter(|(j, _)| own(*j));

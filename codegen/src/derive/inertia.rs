@@ -53,7 +53,7 @@ pub(super) fn inertia(graph: &mut Graph, reduced: &Reduced, n: usize) -> Option<
     )
 }
 
-/// `M q̈` as it is derived: by itself, or else of the entries of `M`.
+/// `M q̈`: derived by itself, or else the product with the entries of `M`.
 pub(super) fn product(
     graph: &mut Graph,
     inertia: Option<&Vec<ExprId>>,

@@ -1,9 +1,9 @@
 //! Where splines go on with another polynomial.
 //!
 //! In:  expressions.
-//! Out: switching functions that pass zero there. Nothing depends on their sides: a spline
-//!      and its first two derivatives are continuous, so it is enough that no step goes
-//!      across the jump of the third.
+//! Out: switching functions that are zero at these places. Nothing depends on their sides: a spline
+//! and its first two derivatives are continuous, so it is enough that no step goes across the jump
+//! of the third.
 //!
 //! Each spline gets one function, which is zero at all of its knots: the distance from the
 //! nearest by the mean distance between knots, with signs in turn.
@@ -65,8 +65,8 @@ impl Graph {
         }
     }
 
-    /// A distance by the mean distance of neighbours among so many places, the first and the
-    /// last of which are given.
+    /// A distance, divided by the mean distance of neighbours among so many places, of which the
+    /// first and the last are given.
     fn in_spacings(
         &mut self,
         distance: ExprId,

@@ -56,7 +56,8 @@ pub struct Partials {
     pub force_by_input: Matrix,
     /// `∂y/∂(q, q̇, q̈, u)`, a row of `3 N + U` for each output.
     pub outputs: Matrix,
-    /// The same for the function of each event.
+    /// Derivatives of the functions of the events by `(q, q̇, q̈, u)`, a row of `3 N + U` for each
+    /// event.
     pub events: Matrix,
 }
 

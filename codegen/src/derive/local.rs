@@ -12,13 +12,13 @@ use crate::expr::{ExprId, Number};
 use crate::model::{Graph, Node};
 use rustc_hash::FxHashMap;
 
-/// A shared velocity that a coordinate's velocity is a part of, and nothing else is.
+/// A shared velocity with a part that occurs in no other: the velocity of a coordinate.
 struct Link {
     /// Its row.
     row: usize,
     /// The place of the coordinate's velocity among all, and its coefficient.
     own: (usize, Number),
-    /// Places and coefficients of what else it is a sum of.
+    /// Places and coefficients of the other terms of its sum.
     others: Vec<(usize, Number)>,
 }
 

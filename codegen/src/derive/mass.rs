@@ -12,7 +12,7 @@ pub(super) fn momenta(graph: &mut Graph, kinetic: ExprId, n: usize, by: Sweep) -
     by.gradient(graph, kinetic, velocities(n))
 }
 
-/// `M` of a mechanism, which `equations` are of, whether they have its entries or not.
+/// `M` of a mechanism, whether its `equations` hold the entries or not.
 pub fn mass_matrix(mechanism: &mut Mechanism, equations: &Equations) -> Matrix {
     if let Some(mass) = &equations.mass {
         return mass.clone();
@@ -30,7 +30,7 @@ pub fn mass_matrix(mechanism: &mut Mechanism, equations: &Equations) -> Matrix {
     mass
 }
 
-/// States of the first order: with the velocities of coordinates of mass one.
+/// Gives states of the first order, which are the velocities of coordinates, a mass of one.
 pub(super) fn set_states(graph: &mut Graph, mass: &mut Matrix, freedoms: usize) {
     for (i, row) in mass.iter_mut().enumerate().skip(freedoms) {
         row[i] = graph.integer(1);

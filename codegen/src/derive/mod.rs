@@ -54,12 +54,12 @@ use motion::{Motion, motion};
 use swell::within_bounds;
 use weighed::weighed;
 
-/// The number of expressions beyond which equations are derived in one sweep, too.
+/// Equations with more expressions than this are derived in one sweep, too, for comparison.
 const LONG: usize = 100;
 
-/// Equations from the energy back are taken if they have less than this part of the
-/// expressions of the others, below [`SWELL`]: linearisation differentiates once more, which
-/// takes longer with their formulas.
+/// Below [`SWELL`], equations that are derived in one sweep from the energy back are taken only if
+/// they have less than this part of the expressions of the others: linearisation differentiates
+/// once more, which takes longer with their formulas.
 const MUCH_SHORTER: (usize, usize) = (2, 3);
 
 /// Derives the equations of motion from energies and constraints.

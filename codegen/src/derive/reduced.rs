@@ -57,8 +57,8 @@ impl Reduced {
     }
 }
 
-/// An energy in which sums of velocities that occur more than once are symbols, the
-/// velocities after the first `n`, and what these are.
+/// An energy in which sums of velocities that occur more than once are replaced by symbols, the
+/// velocities after the first `n`; and these sums.
 fn in_shared(graph: &mut Graph, energy: ExprId, n: usize) -> (ExprId, Vec<ExprId>) {
     let nodes = graph.reachable(&[energy]);
     let mut uses: FxHashMap<ExprId, usize> = FxHashMap::default();

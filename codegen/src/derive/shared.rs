@@ -21,7 +21,7 @@ use super::reduced::{Entries, Reduced};
 use crate::expr::ExprId;
 use crate::model::Mechanism;
 
-/// A solve for accelerations in shared velocities. Of the unknowns, they come first.
+/// A solve for accelerations in shared velocities, which are the first of the unknowns.
 #[derive(Clone, Debug)]
 pub struct Shared {
     /// How many velocities are shared.
@@ -30,7 +30,7 @@ pub struct Shared {
     pub mass: Entries,
     /// `L` of `w = L x`, a row for each shared velocity: what it is made of.
     pub links: Entries,
-    /// `f`, of all unknowns, with what it has in common computed once.
+    /// `f`, of all unknowns, whose common parts are computed once.
     pub force: Vec<ExprId>,
 }
 

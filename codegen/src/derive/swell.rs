@@ -15,8 +15,9 @@ use std::collections::BTreeMap;
 /// word: about what rustc takes ten seconds for.
 pub const SWELL: usize = 10_000;
 
-/// The same for each coordinate and each constraint equation: with fewer a mechanism is large,
-/// and what it is made of comes again as loops of the generated code.
+/// The most distinct expressions for each coordinate and each constraint equation that pass without
+/// a word: with fewer a mechanism is large, and what it is made of comes again as loops of the
+/// generated code.
 const SWELL_EACH: usize = 200;
 
 /// How many contributors are named.
@@ -30,7 +31,7 @@ pub(super) fn within_bounds(graph: &Graph) -> Option<()> {
     (graph.len() <= EXPRESSIONS_MAX).then_some(())
 }
 
-/// The error for a mechanism that has more.
+/// The error for a mechanism that has more expressions than [`EXPRESSIONS_MAX`].
 pub(super) fn refusal(mechanism: &Mechanism) -> Diagnostics {
     let message = format!(
         "the equations of motion have more than {EXPRESSIONS_MAX} expressions: the code \
@@ -118,8 +119,8 @@ fn shares(mechanism: &Mechanism) -> Vec<(Span, f64)> {
     shares
 }
 
-/// About as many expressions as come of one by differentiation: its own number,
-/// for each coordinate in it.
+/// About as many expressions as differentiation makes of a formula: those that it has itself, for
+/// each coordinate in it.
 fn derived_size(graph: &Graph, parts: &[ExprId]) -> f64 {
     let size = graph.reachable(parts).len();
     let is_coordinate = |s: &Symbol| matches!(s, Symbol::Coordinate(_) | Symbol::Velocity(_));

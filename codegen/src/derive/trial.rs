@@ -18,9 +18,9 @@ pub(super) type Sparse = BTreeMap<usize, f64>;
 /// A position at which expressions are evaluated.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Position {
-    /// Which of the random ones.
+    /// The number of the random position.
     pub(super) random: u32,
-    /// A coordinate that differs from it, and its value.
+    /// A coordinate that is not at random, and its value.
     pub(super) moved: Option<(u32, f64)>,
 }
 
@@ -39,7 +39,7 @@ impl Position {
         match (symbol, self.moved) {
             (Symbol::Coordinate(i), Some((moved, value))) if i == moved => value,
             (Symbol::Coordinate(i), _) => spread(i, 0.618_033_988_749_894_9),
-            // The same ones everywhere, as in a run.
+            // Parameters and inputs are the same at all positions, as in a run.
             (Symbol::Parameter(i) | Symbol::Input(i), _) => number(i + 7, 0.414_213_562_373_095),
             (Symbol::Velocity(i), _) => spread(i, 0.732_050_807_568_877),
             _ => 1.0,
@@ -80,7 +80,7 @@ impl Position {
 pub(super) struct Numbers {
     pub(super) mass: Vec<Sparse>,
     pub(super) jacobian: Vec<Sparse>,
-    /// How much inertia each coordinate has where it has most.
+    /// The largest inertia that each coordinate has at the positions seen so far.
     inertia: Vec<f64>,
 }
 

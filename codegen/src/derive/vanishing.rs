@@ -19,17 +19,17 @@ use crate::model::{Graph, Node, Symbol};
 use std::collections::BTreeSet;
 use std::f64::consts::PI;
 
-/// Coordinates that a block may have, so that it is searched as a whole.
+/// A block with at most so many coordinates is searched as a whole.
 const FEW: usize = 8;
-/// Others that each of many coordinates may be coupled with, so that these are searched: in a long
-/// chain each is coupled with all.
+/// Of many coordinates, the coupled pairs are searched if there are at most so many for each
+/// coordinate: in a long chain each is coupled with all.
 const NEIGHBOURS: usize = 4;
-/// Expressions of a block times coordinates that they depend on, so that it is searched: more
-/// would take noticeable time.
+/// A block is searched if its expressions times the coordinates that they depend on are at most so
+/// many: more would take noticeable time.
 const MOST_WORK: usize = 50_000;
-/// Positions of a coordinate at which a block is seen first.
+/// Positions of a coordinate at which a block is sampled.
 const SAMPLES: usize = 16;
-/// The smallest pivot that is seen next to one that vanishes, relative to an inertia.
+/// A pivot that vanishes is searched for where a sample is at most this part of an inertia.
 const SMALL: f64 = 0.3;
 /// Narrowings of an interval by the golden section.
 const NARROWINGS: usize = 40;
@@ -55,9 +55,9 @@ struct Block {
     size: usize,
     /// All entries, row by row.
     entries: Vec<ExprId>,
-    /// What they depend on.
+    /// The coordinates that the entries depend on.
     coordinates: Vec<u32>,
-    /// How many expressions they are made of, times these coordinates.
+    /// How many expressions the entries are made of, times the number of these coordinates.
     work: usize,
 }
 
@@ -102,7 +102,7 @@ struct Line<'a> {
     graph: &'a Graph,
     block: &'a Block,
     coordinate: u32,
-    /// How much inertia the coordinates of the block have where they have most.
+    /// The largest inertia that the coordinates of the block have.
     inertia: Vec<f64>,
 }
 
@@ -153,7 +153,7 @@ impl<'a> Line<'a> {
             .collect();
         let nearest = (0..SAMPLES).min_by(|i, j| pivots[*i].total_cmp(&pivots[*j]))?;
         let middle = nearest.clamp(1, SAMPLES - 2);
-        // That of a square is a parabola, whose vertex may be anywhere.
+        // A pivot that is a square looks like a parabola, whose vertex may be between samples.
         let vertex = vertex(middle, &pivots);
         let is_singular = |value: &f64| self.smallest_pivot(*value) <= ROUND_OFF;
         let lowest = || self.lowest(place(nearest) - SPACING, place(nearest) + SPACING);

@@ -29,7 +29,7 @@ const POSITIONS: u32 = 4;
 pub(super) struct Weighed {
     /// The rows of `A` that take part in it, in ascending order.
     pub(super) rows: Vec<usize>,
-    /// It is singular at some positions.
+    /// Whether the metric is singular at some positions.
     pub(super) degenerates: bool,
 }
 
@@ -64,7 +64,7 @@ fn everywhere(first: &Numbers, others: &[Numbers]) -> Vec<usize> {
     if last {
         return holds.into_iter().map(|hold| hold.row).collect();
     }
-    // Where they do not hold all motions at one position, nothing does at all of them.
+    // If no rows hold all motions at one position, none do so at all positions.
     if holds.is_empty() {
         return Vec::new();
     }
@@ -95,14 +95,14 @@ fn where_singular(graph: &Graph, mass: &Matrix, jacobian: &Matrix, usual: &Numbe
     }
 }
 
-/// All rows that restrict motions without inertia, and how they do together: those of both
+/// All rows that restrict motions without inertia, and how they do so together: the rows of both
 /// ends of a rod without mass hold its angle wherever it points, though none of them does alone.
 struct Together {
     rows: Vec<usize>,
     /// The motions, of length one.
     motions: Vec<Sparse>,
-    /// For two of them that a row restricts, the sum over the rows of the products of a row with
-    /// both.
+    /// For each two motions that one row restricts, the sum over all rows of the product of the row
+    /// with the one times that with the other.
     grips: BTreeMap<(usize, usize), f64>,
 }
 
@@ -156,8 +156,8 @@ struct Hold {
 }
 
 impl Hold {
-    /// Whether the row restricts the motion at all positions, not by chance at these: its
-    /// gradient is parallel to the motion at both, or constant. Any other may become
+    /// Whether the row restricts the motion at all positions, not by chance at these: its gradient
+    /// is parallel to the motion at both positions, or constant. Any other gradient may become
     /// perpendicular to the motion somewhere.
     fn lasts(&self, other: &Self) -> bool {
         let along = self.cosine.min(other.cosine) > 1.0 - ROUND_OFF;
@@ -212,7 +212,7 @@ fn take_hold(motions: &mut Vec<Sparse>, row: usize, entries: &Sparse) -> Option<
     let grips = motions.iter().map(grip).enumerate();
     let (place, grip) = grips.max_by(|(_, a), (_, b)| a.total_cmp(b))?;
     let cosine = grip / size(entries);
-    // False for NaN, too: a row of zeros.
+    // The cosine of a row of zeros is NaN, with which comparisons are false.
     let restricts = cosine > ROUND_OFF.sqrt();
     if !restricts {
         return None;

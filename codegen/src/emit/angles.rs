@@ -15,12 +15,12 @@ use rustc_hash::FxHashSet;
 use std::collections::BTreeSet;
 use std::mem::discriminant;
 
-/// The fewest angles that are worth a call for all.
+/// The fewest angles for which one call for all is worth while.
 const ANGLES_MIN: usize = 2;
 
 /// Angles whose sines and cosines are computed by one call.
 pub(super) struct Together {
-    /// The array of them.
+    /// The array of the angles.
     pub array: TokenStream,
     /// The names of their sines and cosines.
     pub pairs: Vec<(Ident, Ident)>,

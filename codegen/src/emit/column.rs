@@ -16,9 +16,10 @@ pub(super) struct Columns {
     addresses: Vec<Address>,
     /// The number of turns of each column, and its array's name if it is needed.
     columns: Vec<(usize, Option<Ident>)>,
-    /// How many of these are made by the call for the angles: the sines and the cosines.
+    /// How many of the columns are made by the call for the angles: the sines and the cosines.
     angles: usize,
-    /// Of each definition, whether a loop reads it from its column although it stands by itself.
+    /// For each definition, whether a loop reads it from its column although it stands outside of
+    /// all loops.
     read_in_turns: Vec<bool>,
 }
 
@@ -91,7 +92,8 @@ impl Columns {
         }
     }
 
-    /// The same of a definition outside of all loops, if one of them needs it there.
+    /// The array of a definition's column and its place there, if it stands outside of all loops
+    /// and one of them reads it from its column.
     pub fn array_outside(&self, number: usize) -> Option<(&Ident, usize)> {
         let read = self.read_in_turns[number];
         read.then(|| self.array(number)).flatten()

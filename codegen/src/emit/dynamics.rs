@@ -33,12 +33,12 @@ const POSITION: &str =
 const SCHUR: &str = "The acceleration where the constraints are regular: `M = L D Lᵀ`, then the
 Schur complement `A M⁻¹ Aᵀ`.";
 
-/// What is said of one by a single elimination.
+/// What is said of an acceleration by a single elimination.
 const SADDLE: &str = "The acceleration where the constraints are regular: `[M Aᵀ; A 0] = L D Lᵀ`,
 each multiplier after the coordinates of its row. The pivots of rows are bounds of those of
 `A M⁻¹ Aᵀ` from below.";
 
-/// What is said of one in which bodies share velocities.
+/// What is said of an acceleration in velocities that bodies share.
 const SHARED: &str = "The acceleration by one elimination in which the velocities of points that
 bodies have in common are unknowns beside those of the coordinates: from body to body.";
 
@@ -102,8 +102,9 @@ fn methods(subject: &Subject) -> Vec<Method> {
 }
 
 /// A method that fills the fields of a buffer with arrays of their names; the mass matrix
-/// by a function of its own, if there is one. What begins a buffer calls the method once more
-/// and ends it, so that nothing is kept during a call that is hardly ever made.
+/// by a function of its own, if there is one. Where a buffer has to be begun, the method ends with
+/// a call of the function that begins it, which calls the method once more: so nothing is kept
+/// during a call that is hardly ever made.
 fn filled(subject: &Subject, [name, buffer, docs]: [&str; 3], computed: &Optimised) -> Method {
     let mut program = computed.program.clone();
     let statements = begin(subject, &mut program, &entry_of_field);

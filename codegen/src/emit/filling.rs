@@ -18,11 +18,11 @@ pub(super) struct Heading<'a> {
     pub buffer: &'a str,
     pub docs: &'a str,
     pub cost: String,
-    /// What it does with its arguments before.
+    /// What the method does with its arguments before the program runs.
     pub before: TokenStream,
-    /// Whether it solves, and says that it could.
+    /// Whether the method solves, and returns that it could.
     pub solves: bool,
-    /// Whether it is taken apart if it is long.
+    /// Whether the method is taken apart if it is long.
     pub divisible: bool,
 }
 
@@ -33,7 +33,7 @@ pub(super) struct Method {
 }
 
 impl Method {
-    /// The one that runs a program.
+    /// The method that runs a program.
     pub fn of(subject: &Subject, heading: &Heading, program: &Program, place: Place) -> Self {
         let names = &subject.names;
         let straight_line = subject.options.straight_line.unwrap_or(STRAIGHT_LINE);
@@ -79,8 +79,8 @@ impl Method {
     }
 }
 
-/// What is done with a buffer that another mechanism has filled, or none: it is cleared, and
-/// those outputs that are numbers are written, which the program is left without.
+/// What is done first with a buffer that another mechanism or none has filled: it is cleared, and
+/// the outputs that are numbers are written. These are removed from the program.
 pub(super) fn begin(subject: &Subject, program: &mut Program, place: Place) -> TokenStream {
     let (numbers, rest) = numbers_apart(program);
     *program = rest;

@@ -60,7 +60,7 @@ pub(super) type Place<'a> = &'a dyn Fn(&Target) -> Option<TokenStream>;
 pub(super) trait Symbols {
     /// Statements that bring symbols into scope.
     fn prelude(&self, used: &BTreeSet<Symbol>) -> TokenStream;
-    /// The array of all coordinates, if there are as many as this.
+    /// The array of all coordinates, if their number is `count`.
     fn all_coordinates(&self, count: usize) -> Option<TokenStream>;
     /// The entry of an array that a symbol is, at an index that may change from turn to turn;
     /// nothing if it is no such entry.
@@ -85,7 +85,7 @@ impl Body {
         written.unwrap_or_else(|| quote!(T::zero()))
     }
 
-    /// Of statements after which outputs have these expressions.
+    /// A body of statements after which outputs have these expressions.
     pub fn new(statements: TokenStream, outputs: FxHashMap<Slot, TokenStream>) -> Self {
         Self {
             statements,
@@ -127,7 +127,7 @@ pub(super) struct Writer<'a> {
     pub(super) uses: Vec<usize>,
     pub(super) pieces: Vec<Option<Piece>>,
     nothing: Piece,
-    /// The names of the sines and cosines of the angles that have them already.
+    /// The names of the sines and cosines of angles, as far as these are computed already.
     pub(super) angles: FxHashMap<Value, (Ident, Ident)>,
     pub(super) statements: Statements,
 }

@@ -11,7 +11,8 @@ pub(super) fn list(subject: &Subject, name: &'static str, list: &List) -> TokenS
     all_values(subject, name, list.count, &list.computed)
 }
 
-/// The same for the first entries of an array of the method's name.
+/// A method that writes the first `count` entries of an array of the method's name into a slice, as
+/// many as there is room for.
 pub(super) fn all_values(
     subject: &Subject,
     name: &'static str,

@@ -1,11 +1,11 @@
 //! Long functions with loops.
 //!
 //! In:  a program, and the loops that are in it.
-//! Out: statements, with loops among them. What one turn computes and another one reads, or what
-//!      stands outside of the loop, is an entry of an array over the turns.
+//! Out: statements, with loops among them. What one turn computes and another turn, or a step
+//! outside of the loop, reads is an entry of an array over the turns.
 //!
-//! A compiler takes a short loop in no time, and a processor faster than a line that does not
-//! fit into its first cache.
+//! Compilers take no time for a short loop, and processors run it faster than a straight line that
+//! does not fit into their first cache.
 
 use super::column::Columns;
 use super::function::{Decided, Place, Symbols};
@@ -21,11 +21,11 @@ use quote::quote;
 use rustc_hash::FxHashSet;
 use std::collections::BTreeSet;
 
-/// Loops pay where they leave at most three of four steps.
+/// Loops pay where at most so many of four steps are left.
 const OF_FOUR: usize = 3;
 /// The fewest places that a value is written to in a loop.
 const WRITES_MIN: usize = 8;
-/// The most steps that may be left, for the compiler's sake.
+/// The most steps that may be left: compilers take too long for more.
 const LEFT_MAX: usize = 10_000;
 
 /// A program with loops.
@@ -36,7 +36,8 @@ pub(super) struct Loops<'a> {
 }
 
 impl<'a> Loops<'a> {
-    /// Those of a program, if they make it much shorter; `names` are the names that are taken.
+    /// A program with its loops, if they make it much shorter; `names` are the names that are
+    /// taken.
     pub fn of(
         program: &Program,
         symbols: &'a dyn Symbols,
@@ -141,7 +142,7 @@ struct Writer<'a> {
 }
 
 impl Writer<'_> {
-    /// The call for the angles; what comes of it is two arrays.
+    /// Writes the call for the angles, whose results are two arrays.
     fn angles(&mut self, angles: Angles) {
         let Angles {
             statements, array, ..
@@ -153,7 +154,7 @@ impl Writer<'_> {
             .push(quote!(let (#sines, #cosines) = T::sin_cos_all(&#array);));
     }
 
-    /// The other arrays.
+    /// Declares the other arrays.
     fn arrays(&mut self) {
         for (array, turns) in self.columns.arrays() {
             let turns = Literal::usize_unsuffixed(turns);
@@ -162,7 +163,7 @@ impl Writer<'_> {
         }
     }
 
-    /// A step outside of all loops.
+    /// Writes a step outside of all loops.
     fn straight(&mut self, step: Step) {
         step.reads().for_each(|number| self.know(number));
         self.known.extend(step.defines.clone());
@@ -187,14 +188,14 @@ impl Writer<'_> {
         }
     }
 
-    /// Where a value is found in its array, so far from turn to turn.
+    /// The entry of its array that holds a value, `step` entries farther in each turn.
     fn entry(&self, number: usize, step: isize) -> Option<TokenStream> {
         let (array, first) = self.columns.array(number)?;
         let index = Index { first, step };
         Some(quote!(#array[#index]))
     }
 
-    /// Leaves a value for others.
+    /// Stores a value in its array, if it has a place there.
     fn leave(&mut self, number: usize, place: Option<(Ident, Index)>) {
         let name = &self.definitions[number];
         if let Some((array, index)) = place {
@@ -202,8 +203,8 @@ impl Writer<'_> {
         }
     }
 
-    /// What a step outside of all loops writes: in loops what goes to many places at even
-    /// distances.
+    /// The assignments of a step outside of all loops: a value that goes to many places at even
+    /// distances is assigned in a loop.
     fn writes_outside(&self, step: &Step) -> TokenStream {
         let mut rest = &step.writes[..];
         let mut written = TokenStream::new();
@@ -246,7 +247,7 @@ impl Writer<'_> {
         assigned.collect()
     }
 
-    /// A loop, from the steps of its first iteration. What is the same in all iterations is
+    /// Writes a loop, from the steps of its first iteration. What is the same in all iterations is
     /// brought into scope before.
     fn repeated(&mut self, steps: Vec<Step>, repeated: &Loop) {
         let references = steps.iter().flat_map(|step| step.references.clone());
@@ -270,8 +271,8 @@ impl Writer<'_> {
             .push(quote!(for #turn in 0..#turns { #inside }));
     }
 
-    /// The statements of an iteration. Some values are in scope `here`, and in arrays it is
-    /// so `far` from one iteration to the next.
+    /// Writes the statements of an iteration. The values `here` are in scope; `far` is the distance
+    /// in an array from one iteration to the next.
     fn turn(
         &mut self,
         steps: Vec<Step>,
@@ -312,7 +313,7 @@ impl Writer<'_> {
     }
 }
 
-/// How many of the first places are at even distances, and at which.
+/// How many of the first places are at even distances, and that distance.
 fn even_slots(writes: &[(Slot, TokenStream)]) -> (usize, Stride) {
     let stride = |from: &Slot, to: &Slot| {
         let place = |slot: &Slot| [slot.row, slot.column];

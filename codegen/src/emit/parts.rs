@@ -23,8 +23,8 @@ use rustc_hash::{FxHashMap, FxHashSet};
 /// of 80 parallelograms would take 1.8 times as many instructions in parts.
 pub(super) const STRAIGHT_LINE: usize = 20_000;
 /// The most statements of a part; where shorter lines are asked for, a quarter of their operations.
-/// What looks at all of a block takes a compiler half as long for a row of 320 as with parts of
-/// 2,000 statements, and as many instructions run.
+/// With such parts, the passes of a compiler that look at all of a block take half as long for a
+/// row of 320 as with parts of 2,000 statements, and as many instructions run.
 const STATEMENTS: usize = 250;
 
 /// A function that was taken apart.
@@ -83,7 +83,7 @@ impl Parts {
     }
 }
 
-/// Steps, so many to a part that it has no more statements than it may.
+/// Divides steps into parts with at most `most` statements each, unless one step has more.
 fn parts(steps: Vec<Step>, most: usize) -> Vec<Vec<Step>> {
     let mut parts: Vec<Vec<Step>> = Vec::new();
     let mut statements = 0;
@@ -126,7 +126,7 @@ impl<'a> Kept<'a> {
             (part, defined.collect())
         });
         let mut places = FxHashMap::default();
-        // Of the even places, and of the odd ones, those that are free, and how many there are.
+        // For the even places and for the odd ones: those that are free, and how many there are.
         let mut free = [Vec::new(), Vec::new()];
         let mut counts = [0, 0];
         let mut taken: Vec<(usize, usize)> = Vec::new();

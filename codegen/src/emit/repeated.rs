@@ -14,7 +14,7 @@ use std::collections::BTreeSet;
 pub(super) struct Repeated {
     /// What is computed before the first run.
     pub once: TokenStream,
-    /// What is computed in each, and where it goes.
+    /// What is computed in each run, and where the results go.
     pub again: TokenStream,
 }
 

@@ -22,33 +22,33 @@ pub(super) enum Reference {
     Value(usize),
     /// An entry of an array.
     Entry(Symbol),
-    /// The entry that it writes.
+    /// The entry that the step writes.
     Written(Slot),
 }
 
 /// The statements for a value.
 pub(super) struct Step {
     pub statements: Statements,
-    /// What it is written to, and the expression for it.
+    /// The entries that the value is written to, and the expression for it.
     pub writes: Vec<(Slot, TokenStream)>,
     /// Steps of one form differ in what they refer to, and in the names of what they define.
     pub form: usize,
     pub references: Vec<Reference>,
-    /// Symbols that it reads, those that are entries of arrays among them.
+    /// Symbols that the step reads, those that are entries of arrays among them.
     pub symbols: Vec<Symbol>,
-    /// The numbers of what it defines.
+    /// The numbers of the definitions that the step makes.
     pub defines: Range<usize>,
-    /// Whether it looks at sides that are held in the buffer.
+    /// Whether the step looks at sides that are held in the buffer.
     pub sides: bool,
 }
 
 impl Step {
-    /// The number of its statements.
+    /// The number of statements of the step.
     pub fn length(&self) -> usize {
         self.statements.len() + self.writes.len()
     }
 
-    /// The numbers of the values that it reads.
+    /// The numbers of the values that the step reads.
     pub fn reads(&self) -> impl Iterator<Item = usize> {
         self.references
             .iter()
@@ -100,7 +100,7 @@ enum Mark {
 }
 
 impl Steps {
-    /// Those of a program; `names` are the names that are taken.
+    /// The steps of a program; `names` are the names that are taken.
     pub fn of(program: &Program, symbols: &dyn Symbols, names: Names, decided: Decided) -> Self {
         let mut writer = Writer::of(program, symbols, names, decided);
         let mut reader = Reader::default();
@@ -144,7 +144,7 @@ struct Reader {
 }
 
 impl Reader {
-    /// The number of a definition; none of what nobody reads.
+    /// The number of a definition; none if nobody reads it.
     fn define(&mut self, name: Ident) -> Option<usize> {
         if name == "_" {
             return None;

@@ -16,8 +16,8 @@ use rustc_hash::FxHashMap;
 /// asked for: those of a row of 40 parallelograms. Beyond, loops are faster on all processors, and
 /// from 3,000 on on those that are not allowed to fuse products with sums (`docs/instructions.md`).
 const UNROLLED: usize = 8_000;
-/// The same of a function that no step of a run calls: whether anyone does or not, compilers look
-/// at all of it.
+/// The most operations without loops of a function that no step of a run calls: whether anyone
+/// calls it or not, compilers look at all of it.
 const UNROLLED_ON_REQUEST: usize = 1_000;
 
 /// When a function is called.
@@ -76,7 +76,7 @@ pub(super) struct Written {
     pub body: Body,
     /// `state`, or `_state` where the body does not read it.
     pub state: Ident,
-    /// `acceleration`, likewise.
+    /// `acceleration`, or `_acceleration` where the body does not read it.
     pub acceleration: Ident,
     /// What it costs, in words.
     pub cost: String,
@@ -152,7 +152,7 @@ impl Subject<'_> {
         self.with_arguments(computed, body)
     }
 
-    /// The body that runs a program; says what it costs, and what it would as derived.
+    /// The body that runs a program; says what it costs, and what it would cost as derived.
     pub fn optimised(
         &self,
         computed: &Optimised,
@@ -213,7 +213,7 @@ fn body_of_list(program: &Program, loops: Loops) -> Body {
     )
 }
 
-/// What a program costs, and what it would as derived.
+/// What a program costs, and what it would cost as derived.
 pub(super) fn cost_in_words(computed: &Optimised) -> String {
     let Optimised { cost, derived, .. } = computed;
     match derived == cost {

@@ -46,7 +46,7 @@ impl Writer<'_> {
     }
 
     /// The terms of a sum that is too long for one expression, in the order in which they are
-    /// added; `None` of a value that is none.
+    /// added; `None` for a value that is no such sum.
     pub(super) fn long_sum(&self, value: Value) -> Option<Vec<(bool, Value)>> {
         let written = self.pieces[value.index()].is_some();
         match self.program.operation(value) {
@@ -60,7 +60,7 @@ impl Writer<'_> {
         }
     }
 
-    /// Names the sum of a term and of what was added before; the last such name is that of the
+    /// Names the sum of a term and all terms added before; the last of these names is that of the
     /// value.
     pub(super) fn add_term(&mut self, value: Value, (minus, term): (bool, Value)) -> Ident {
         let sum = match self.pieces[value.index()].take() {
@@ -80,7 +80,8 @@ impl Writer<'_> {
         (self.only(minus, value), rest)
     }
 
-    /// Which term a sum begins with: one that is added and is no product, if there is one.
+    /// The term that a sum begins with: one that is added, not subtracted, and is no product, if
+    /// there is one.
     fn beginning(&self, terms: &[(bool, Value)]) -> usize {
         let plain = |(minus, value): &(bool, Value)| !minus && self.piece(*value).factors.is_none();
         terms.iter().position(plain).unwrap_or(0)

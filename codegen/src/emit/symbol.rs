@@ -26,9 +26,10 @@ const RESERVED: [&str; 12] = [
     "turn",
 ];
 
-/// The entries of an array that are always named all at once.
+/// The entries of an array with at most so many are always named all at once.
 const SHORT: usize = 64;
-/// Of more, these are many for one that is read.
+/// Those of a longer array are named one by one if there are more than so many for each one that is
+/// read.
 const FEW_OF: usize = 8;
 
 /// Names of fields and of local variables.
@@ -186,7 +187,7 @@ fn array_of(symbol: Symbol) -> Option<TokenStream> {
     }
 }
 
-/// Gives entries of an array their names: all at once, unless they are few of many.
+/// Gives entries of an array their names: all at once, unless few of many are read.
 fn entries(names: &[Ident], places: &[usize], array: &TokenStream) -> TokenStream {
     if names.len() > FEW_OF * places.len() && names.len() > SHORT {
         let entry = |place: &usize| {

@@ -1,9 +1,8 @@
 //! Loops in a list of steps.
 //!
 //! In:  the steps of a program.
-//! Out: [`Block`]s: stretches in which the same forms come again and again, each turn referring
-//!      to what is as far from what the turn before refers to as there is from turn to turn;
-//!      and the steps between them.
+//! Out: [`Block`]s: stretches in which the same forms come again and again, and in which what the
+//! turns refer to lies at even distances from one turn to the next; and the steps between them.
 //!
 //! Bodies, arrays and loops of a description leave such traces: their expressions have one
 //! form, and the elimination of their unknowns goes from one to the next.
@@ -17,17 +16,18 @@ use std::ops::Range;
 /// The fewest turns of a loop, and the fewest steps that it saves.
 const TURNS_MIN: usize = 4;
 const SAVED_MIN: usize = 32;
-/// How many lengths of a turn are tried at a place.
+/// The most lengths of a turn that are tried at a place.
 const LENGTHS: usize = 16;
-/// The most turns of equal forms that are taken for one: what they refer to may alternate.
+/// At most so many turns of equal forms are taken together as one turn: what they refer to may
+/// alternate.
 const TOGETHER_MAX: usize = 4;
 
 /// Where a definition is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub(super) enum Address {
-    /// In a column: a definition that each turn has, by the number of the turn.
+    /// In a column, which has a definition of each turn, at the number of the turn.
     Column(usize, usize),
-    /// By itself, by its number.
+    /// Outside of all columns, by its number.
     Single(usize),
 }
 
@@ -45,12 +45,12 @@ pub(super) enum Block {
 
 /// Steps that come again.
 pub(super) struct Loop {
-    /// Those of the first turn.
+    /// The steps of the first turn.
     pub first: Range<usize>,
     pub turns: usize,
-    /// Of all that they refer to, in order.
+    /// The strides of all that these steps refer to, in order.
     pub strides: Vec<Stride>,
-    /// How far it is in a column from one turn to the next.
+    /// The distance in a column from one turn to the next.
     pub step: isize,
 }
 
@@ -64,7 +64,7 @@ impl Loop {
 /// What was found in a list of steps.
 pub(super) struct Found {
     pub blocks: Vec<Block>,
-    /// Of each definition.
+    /// Where each definition is.
     pub addresses: Vec<Address>,
     /// The number of turns of each column.
     pub columns: Vec<usize>,
@@ -94,7 +94,7 @@ impl Stretch {
 }
 
 impl Found {
-    /// What is in the steps of a program.
+    /// Finds the loops and columns in the steps of a program.
     pub fn of(steps: &Steps) -> Self {
         let stretches = stretches(&steps.list);
         let mut found = Self {
@@ -116,7 +116,7 @@ impl Found {
         found
     }
 
-    /// The sines are a column, and the cosines.
+    /// Makes the sines a column, and the cosines another.
     fn columns_of_angles(&mut self, steps: &Steps) {
         let Some(angles) = &steps.angles else { return };
         for side in 0..2 {
@@ -129,7 +129,7 @@ impl Found {
         }
     }
 
-    /// What a step of a turn defines is a column over all turns.
+    /// Makes each definition of a step of a turn a column over all turns.
     fn columns_of_stretch(&mut self, steps: &[Step], stretch: &Stretch) {
         for step in stretch.first..stretch.turn(1) {
             for place in 0..steps[step].defines.len() {
@@ -142,7 +142,7 @@ impl Found {
         }
     }
 
-    /// Steps that are in no loop go together.
+    /// Adds steps that are in no loop; those next to one another make one block.
     fn straight(&mut self, steps: Range<usize>) {
         match self.blocks.last_mut() {
             _ if steps.is_empty() => {}
@@ -151,8 +151,8 @@ impl Found {
         }
     }
 
-    /// The loops of a stretch. Its first turns often refer to what stands before, and its last
-    /// ones to ends: they are no part of them.
+    /// Adds the loops of a stretch. Its first turns often refer to what stands before it, and its
+    /// last turns to ends: these are no part of a loop.
     fn loops(&mut self, steps: &[Step], stretch: Stretch) {
         let mut turn = 0;
         while turn < stretch.turns {
@@ -188,7 +188,7 @@ impl Found {
         }
     }
 
-    /// The first turns of a stretch that refer to things at even distances, and at which.
+    /// The first turns of a stretch that refer to things at even distances, and these distances.
     fn even_turns(&self, steps: &[Step], stretch: Stretch) -> Option<(Stretch, Vec<Stride>)> {
         let at = |turn: usize| self.referred(steps, stretch.turn(turn)..stretch.turn(turn + 1));
         if stretch.turns < 2 {
@@ -235,13 +235,13 @@ impl Found {
     }
 }
 
-/// What a step refers to: where it is, and at which place there.
+/// What a step refers to: the group that contains it, and its place there.
 #[derive(Clone, Copy, PartialEq, Eq, Hash)]
 struct Target(Group, [usize; 2]);
 
 #[derive(Clone, Copy, PartialEq, Eq, Hash)]
 enum Group {
-    /// In the same turn.
+    /// A definition of the same turn.
     Own(usize),
     Column(usize),
     Single(usize),
@@ -249,8 +249,9 @@ enum Group {
     Written,
 }
 
-/// How far it is from what one turn refers to, to what the next does. Nothing if one is of
-/// another kind, or if what one turn refers to twice would part in the next: it has one name.
+/// The distances from what one turn refers to, to what the next one refers to. `None` if the two
+/// are of different groups, or if one thing to which a turn refers twice would become two in the
+/// next: it has only one name.
 fn strides(first: &[Target], next: &[Target]) -> Option<Vec<Stride>> {
     let mut known: FxHashMap<Target, Stride> = FxHashMap::default();
     let mut strides = Vec::with_capacity(first.len());
@@ -268,7 +269,7 @@ fn stride(target: &Target, moved: &Target) -> Option<Stride> {
     (target.0 == moved.0).then(|| distance(target.1, moved.1))
 }
 
-/// How far it is from one place of an array to another.
+/// The distance from one place of an array to another.
 pub(super) fn distance(from: [usize; 2], to: [usize; 2]) -> Stride {
     let step = |i: usize| to[i].wrapping_sub(from[i]).cast_signed();
     [step(0), step(1)]

@@ -46,7 +46,8 @@ impl<S: Symbolic> Graph<S> {
         self.reachable_but(roots, &|_| false)
     }
 
-    /// The same, without what is known and what only that is made of.
+    /// Every expression that some roots are made of, in an order of evaluation, but for those that
+    /// are known and those that only known ones are made of.
     pub(super) fn reachable_but(
         &self,
         roots: &[ExprId],

@@ -142,7 +142,7 @@ impl<'a> Numbers<'a> {
         Some(numbers)
     }
 
-    /// The same with a graph that has more expressions.
+    /// These numbers with a graph that has more expressions.
     pub fn grown<'b>(&'b self, graph: &'b Graph) -> Numbers<'b> {
         Numbers {
             graph,
@@ -166,8 +166,8 @@ impl<'a> Numbers<'a> {
         self.accelerating(roots, place, v, None)
     }
 
-    /// The same, with the acceleration of index `unit` equal to one, if an index is given, and
-    /// all others zero.
+    /// Values of expressions at a place, at velocities, with the acceleration of index `unit` equal
+    /// to one, if an index is given, and all others zero.
     fn accelerating(
         &self,
         roots: &[ExprId],

@@ -89,7 +89,8 @@ pub struct Mechanism {
     pub starts: Vec<Start>,
     /// Equations of the `start` block that are no values of coordinates and velocities.
     pub start_equations: Vec<Constraint>,
-    /// The same that are guesses.
+    /// Equations of the `start` block that are guesses, and no values of coordinates and
+    /// velocities.
     pub start_guesses: Vec<Constraint>,
     /// Observables, vectors unrolled (`p.x`, `p.y`).
     pub outputs: Vec<Output>,

@@ -134,7 +134,8 @@ impl Lowering<'_> {
         Some(())
     }
 
-    /// The same where nobody knows how often: as [`Evaluator::look_once`].
+    /// Does something once for a range whose bounds are unknown, while its index has no value: as
+    /// [`Evaluator::look_once`].
     ///
     /// [`Evaluator::look_once`]: super::evaluate::Evaluator::look_once
     fn repeat_once(&mut self, range: &Range, mut body: impl FnMut(&mut Self)) -> Option<()> {

@@ -122,7 +122,7 @@ impl Value {
         }
     }
 
-    /// The same value in a unit; a rotation stays one.
+    /// This value in another unit; a rotation stays one.
     pub fn with_unit(&self, unit: Unit) -> Value {
         let scalars = self.scalars().into_iter();
         let mut value = self.with_scalars(scalars.map(|s| Scalar { unit, ..s }).collect());

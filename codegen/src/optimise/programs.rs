@@ -131,7 +131,7 @@ impl Optimiser<'_> {
         entries.map_or_else(Wanted::new, |mass| matrix("mass", mass))
     }
 
-    /// The same where they are written down.
+    /// The entries of `M`, where they are written down: not where `M q̈` is.
     fn written_mass(&self) -> Wanted {
         match self.equations.inertia {
             Some(_) => Wanted::new(),

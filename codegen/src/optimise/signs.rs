@@ -96,7 +96,8 @@ impl<'a> Signs<'a> {
         turned
     }
 
-    /// The same, as far as it goes.
+    /// Changes these signs one after the other; `None` where one would have to be changed back,
+    /// with those marked that were changed before.
     fn turn_all(&mut self, product: Value, before: &[bool]) -> Option<()> {
         let mut pending = vec![product];
         let mut sums = Vec::new();

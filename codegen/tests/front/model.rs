@@ -38,7 +38,7 @@ mechanism Chain {
 }
 ";
 
-/// The same by calls, the links in a loop.
+/// The chain of pendulums by calls, its links in a loop.
 fn chain() -> Model {
     let mut model = Model::new("Chain")
         .docs("Two pendulums, one below the other.")

@@ -101,7 +101,7 @@ fn said(source: &str) -> Vec<String> {
     rendered.split("\n\n").map(str::to_string).collect()
 }
 
-/// The same of statements, but for that nothing uses them.
+/// What is said about statements, but for that nothing uses them.
 fn mistakes(statements: &str) -> Vec<String> {
     let mut said = said(&with(statements));
     said.retain(|one| !one.is_empty() && !one.contains("is never used"));

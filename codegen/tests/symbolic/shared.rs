@@ -30,7 +30,7 @@ pub(super) fn chain(coordinates: &str) -> String {
     )
 }
 
-/// The same in the angles of the rods.
+/// The chain in the angles of the rods.
 pub(super) fn of_rods() -> String {
     chain("coord phi[N];")
 }

@@ -12,7 +12,7 @@ const PARALLELOGRAM: FourBar = FourBar {
     ground: 0.7,
     coupler: 0.7,
 };
-/// The same with a coupler that is 2 % too long.
+/// The parallelogram with a coupler that is 2 % too long.
 const WITH_GAP: FourBar = FourBar {
     coupler: 0.7 * 1.02,
     ..PARALLELOGRAM

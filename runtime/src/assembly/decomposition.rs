@@ -17,7 +17,7 @@ pub(super) struct Decomposition<'a, T> {
     n: usize,
     /// `σ_i v_i` of the unsafe rows, largest first; then the safe rows as they are.
     rows: &'a mut [T],
-    /// Which rows these are: first the unsafe ones.
+    /// The rows of `Ĵ` in this order: first the unsafe ones.
     order: &'a mut [usize],
     /// How many rows are not safe.
     n_unsafe: usize,
@@ -26,15 +26,15 @@ pub(super) struct Decomposition<'a, T> {
     /// `σ_i²`.
     squares: &'a mut [T],
     safe: RowProducts<'a, T>,
-    /// What solutions of the safe rows are combined by.
+    /// The multipliers of the safe rows in a solution.
     multipliers: &'a mut [T],
     /// What is added to the squares of singular values.
     shift: T,
 }
 
 impl<'a, T: Real> Decomposition<'a, T> {
-    /// That of a matrix of zeros. It takes a matrix of `n_rows` by `n`, two square ones of all
-    /// rows, six vectors and three lists.
+    /// The decomposition of a matrix of zeros. It takes a matrix of `n_rows` by `n`, two square
+    /// ones of all rows, six vectors and three lists.
     pub(super) fn new(n: usize, n_rows: usize, workspace: &Workspace<'a, T>) -> Self {
         Self {
             n,
@@ -137,7 +137,7 @@ impl<'a, T: Real> Decomposition<'a, T> {
         fall
     }
 
-    /// Takes from `y` what the singular values above `cut` can produce.
+    /// Subtracts from `y` what the singular values above `cut` can produce.
     pub(super) fn leave_unreachable(&self, y: &mut [T], cut: T) {
         for row in &self.order[self.n_unsafe..] {
             y[*row] = T::zero();
@@ -148,7 +148,7 @@ impl<'a, T: Real> Decomposition<'a, T> {
         }
     }
 
-    /// Takes from `x` what changes `Ĵ x` by singular values above `cut`.
+    /// Subtracts from `x` what changes `Ĵ x` by singular values above `cut`.
     pub(super) fn leave_ineffective(&mut self, x: &mut [T], cut: T) {
         for i in 0..self.n_singular(cut) {
             let share = dot(self.row(i), x) / self.squares[i];
@@ -192,7 +192,7 @@ impl<'a, T: Real> Decomposition<'a, T> {
         &self.rows[i * self.n..(i + 1) * self.n]
     }
 
-    /// The combination of rows that one of those that are not safe is, at length one.
+    /// `u_i`: the combination of rows, of length one, to which the singular value `σ_i` belongs.
     fn left(&self, i: usize) -> &[T] {
         let n_rows = self.order.len();
         &self.left[i * n_rows..(i + 1) * n_rows]

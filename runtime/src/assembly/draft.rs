@@ -21,7 +21,7 @@ pub(crate) struct Draft<'a, T> {
     pub(super) held: &'a [bool],
     /// The error of each equation where there is a contradiction.
     pub(super) residual: &'a mut [T],
-    /// Which held values stand in the way then.
+    /// Which held values stand in the way where there is a contradiction.
     pub(super) conflicting: &'a mut [bool],
     /// Whether constraints that are independent nearly depend on one another.
     pub(super) near_singular: &'a mut bool,
@@ -32,14 +32,15 @@ pub(crate) struct Draft<'a, T> {
 pub(crate) enum Refusal {
     /// Something is infinite or NaN.
     NotFinite,
-    /// No position near the guesses satisfies the constraints; with their errors in the draft.
+    /// No position near the guesses satisfies the constraints; their errors are in the draft.
     Positions,
-    /// No velocity satisfies the constraints, likewise.
+    /// No velocity satisfies the constraints; their errors are in the draft.
     Velocities,
     /// No branch through the singular position has the held velocities.
     NoBranch,
-    /// Several branches have them, and the guesses are equally near to these; this velocity, for
-    /// one, tells them apart, with a value in the draft.
+    /// Several branches have the held velocities, and the guesses are equally near to these
+    /// branches. This velocity, for one, tells them apart; its value on one of them is in the
+    /// draft.
     ManyBranches(usize),
     /// This equation has no gradient where it holds.
     Vanishing(usize),

@@ -48,9 +48,9 @@ where
     })
 }
 
-/// Moves the guesses of a start onto equations that are guesses, of which there are `P`
-/// for positions and `V` for velocities, those that are held among them; whether they can
-/// be met. Constraints are not among them: they are met afterwards, from there.
+/// Moves the guesses of a start onto equations that are guesses, and those that are held, together
+/// `P` for positions and `V` for velocities; whether they can be met. Constraints are met
+/// afterwards, from there.
 pub fn guess<T, M, const N: usize, const R: usize, const P: usize, const V: usize>(
     mechanism: &M,
     structure: &'static Structure,
@@ -68,7 +68,7 @@ where
     });
     let turns = T::from_f64(core::f64::consts::TAU);
     let pairs = moved_to.q.iter().zip(&start.q);
-    // Beyond a turn it has lost its way.
+    // A guess that was moved by more than a turn has lost its way.
     let near = pairs.fold(true, |near, (to, from)| {
         near & ((to.value - from.value).abs() <= turns * (T::one() + from.value.abs()))
     });
@@ -123,10 +123,10 @@ where
 struct Further<'a, M, const R: usize> {
     mechanism: &'a M,
     structure: &'static Structure,
-    /// How many constraints there are: all of them, or none, and then no coordinate is
+    /// How many constraints take part: all of them, or none. Without constraints, no coordinate is
     /// heavier than another.
     own: Option<usize>,
-    /// Whether the rows are those for velocities.
+    /// Whether the further rows are those for velocities.
     velocities: bool,
 }
 
@@ -153,7 +153,7 @@ where
         self.structure
     }
 
-    /// Those of the mechanism: the further rows hold at the start and not afterwards.
+    /// The terms of the mechanism: the further rows hold at the start and not afterwards.
     fn terms(&self, state: &State<T, N>, out: &mut Terms<T, N, S>) {
         let mut own = Terms::<T, N, R>::default();
         self.mechanism.terms(state, &mut own);

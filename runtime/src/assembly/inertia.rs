@@ -3,25 +3,24 @@
 //! In:  the mass matrix.
 //! Out: the coordinate whose motion has a negative kinetic energy, if there is one.
 //!
-//! Cholesky's elimination, the largest pivot first, which carries the directions along:
-//! of a kinetic energy that is nowhere negative nothing is left when no pivot is
-//! positive any more.
+//! Cholesky's elimination takes the largest pivot first and carries the directions along. If the
+//! kinetic energy is nowhere negative, nothing is left once no pivot is positive any more.
 
 use crate::Real;
 use crate::linalg::{Breakdown, Workspace, add_scaled, dot, pair};
 use crate::once::compiled_once;
 
-/// Square matrices of all coordinates that it takes.
+/// Square matrices of all coordinates that the elimination takes.
 pub(super) const MATRICES: usize = 2;
-/// Vectors of all coordinates.
+/// Vectors of all coordinates that the elimination takes.
 pub(super) const VECTORS: usize = 2;
 
 /// What is left of a semidefinite matrix is round-off up to this multiple of its largest
 /// entry.
 const ROUND_OFF: f64 = 4096.0;
 
-/// The coordinate that makes the kinetic energy negative, if it can be; unless the mass
-/// matrix of these many coordinates is not finite. With room for one list of them.
+/// The coordinate that makes the kinetic energy of `n` coordinates negative, if it can be negative;
+/// an error if the mass matrix is not finite. Needs room for a list of the coordinates.
 pub(super) fn negative<T: Real>(
     mass: &[T],
     n: usize,
@@ -61,15 +60,15 @@ pub(super) fn negative<T: Real>(
 /// The mass matrix in directions that have an inertia of one.
 struct Reduced<'a, T> {
     n: usize,
-    /// What is left of it, column by column.
+    /// What is left of the mass matrix, column by column.
     rest: &'a mut [T],
     directions: &'a mut [T],
-    /// Which directions are eliminated: those that are not zero.
+    /// One for each direction that is eliminated, zero for the others.
     done: &'a mut [usize],
 }
 
 impl<T: Real> Reduced<'_, T> {
-    /// Whether there is a direction of negative energy, and which; with room for a row.
+    /// Whether there is a direction of negative energy, which is written; needs room for a row.
     fn find(&mut self, direction: &mut [T], row: &mut [T]) -> bool {
         let largest = self
             .rest
@@ -123,8 +122,8 @@ impl<T: Real> Reduced<'_, T> {
         }
     }
 
-    /// The direction of least energy among what is left and the differences and sums of two;
-    /// returns twice that energy.
+    /// The direction of least energy among those that are left and the sums and differences of two
+    /// of them; returns twice that energy.
     fn least(&self, direction: &mut [T]) -> Option<T> {
         let mut least: Option<(T, [usize; 2], T)> = None;
         let mut take = |energy: T, of: [usize; 2], factor: T| {

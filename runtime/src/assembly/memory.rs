@@ -24,9 +24,9 @@ const LISTS: usize = 9;
 /// Memory for a mechanism with `N` coordinates and `R` rows.
 #[cfg(feature = "std")]
 pub(super) struct Memory<T, const N: usize, const R: usize> {
-    /// That of small mechanisms.
+    /// The memory of small mechanisms.
     small: [T; numbers(SMALL, SMALL)],
-    /// That of large ones.
+    /// The memory of large mechanisms.
     large: Vec<T>,
     lists: [[usize; R]; LISTS],
 }
@@ -35,7 +35,7 @@ pub(super) struct Memory<T, const N: usize, const R: usize> {
 #[cfg(feature = "std")]
 const SMALL: usize = 8;
 
-/// How many numbers there are at once, at most.
+/// How many numbers are in use at once, at most.
 #[cfg(feature = "std")]
 const fn numbers(n: usize, n_rows: usize) -> usize {
     n_rows * (WIDE * n + SQUARE * n_rows + ROWS) + COORDINATES * n
@@ -53,7 +53,7 @@ impl<T: Real, const N: usize, const R: usize> Memory<T, N, R> {
         }
     }
 
-    /// All of it.
+    /// A workspace of the whole memory.
     pub(super) fn workspace(&mut self) -> Workspace<'_, T> {
         let numbers = match self.large.is_empty() {
             true => &mut self.small[..],
@@ -90,7 +90,7 @@ impl<T: Real, const N: usize, const R: usize> Memory<T, N, R> {
         }
     }
 
-    /// All of it.
+    /// A workspace of the whole memory.
     pub(super) fn workspace(&mut self) -> Workspace<'_, T> {
         let numbers = [
             self.coordinates.as_flattened_mut(),

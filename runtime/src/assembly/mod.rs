@@ -70,7 +70,7 @@ where
     consistent(&mechanism, start, t)
 }
 
-/// The same, whatever the mechanism is besides its sizes.
+/// Assembles any mechanism of these sizes: compiled once for all of them.
 fn consistent<T: Real, const N: usize, const R: usize>(
     mechanism: &dyn Mechanism<T, N, R>,
     start: &Start<T, N>,
@@ -161,8 +161,8 @@ fn assemble_in_room<T: Real, const N: usize, const R: usize>(
     (assembled, room.near_singular)
 }
 
-/// Refuses a kinetic energy that is negative for some velocities, whether or not the
-/// constraints allow them at this position.
+/// Refuses a kinetic energy that is negative for some velocities, whether or not the constraints
+/// allow these velocities at this position.
 #[inline(never)]
 fn check_inertia<T: Real, const N: usize, const R: usize>(
     mechanism: &dyn Mechanism<T, N, R>,

@@ -21,11 +21,11 @@ use core::ops::Range;
 
 /// Trial steps of one descent.
 const MOST_TRIALS: usize = 300;
-/// Constraint errors, in units of round-off, that are nothing but round-off.
+/// Constraint errors up to this many units of round-off are nothing but round-off.
 const ROUND_OFF: f64 = 4.0;
 /// Damping at which steps are too short to change anything.
 const MOST_DAMPING: f64 = 1e14;
-/// How fast damping comes and goes.
+/// The factor by which damping rises and falls.
 const DAMPING_FACTOR: f64 = 8.0;
 /// The part of the promised improvement that a step must keep.
 const KEPT_PROMISE: f64 = 0.1;
@@ -81,7 +81,7 @@ struct Descent<'e, 'a, T> {
     equations: &'e mut dyn Equations<T>,
     scales: Scales<'a, T>,
     t: T,
-    /// Where the descent is.
+    /// The position of the descent.
     q: &'a mut [T],
     /// The constraint errors there.
     residual: &'a mut [T],
@@ -89,7 +89,7 @@ struct Descent<'e, 'a, T> {
     merit: T,
     damping: T,
     matrix: Decomposition<'a, T>,
-    /// What a step removes, the step, and where it leads.
+    /// The errors that a step removes, the step, and where it leads.
     target: &'a mut [T],
     step: &'a mut [T],
     trial: &'a mut [T],
@@ -139,15 +139,16 @@ impl<'e, 'a, T: Real> Descent<'e, 'a, T> {
         self.residual.copy_from_slice(residual);
     }
 
-    /// Tries steps of rising damping and takes the first that improves; whether there was one.
+    /// Tries steps of rising damping and takes the first that reduces the merit; whether there was
+    /// one.
     fn advances(&mut self, trials: &mut Range<usize>) -> Result<bool, Refusal> {
         let jacobian = self.equations.constraints().jacobian;
         self.matrix.decompose(jacobian, &self.scales)?;
         for (k, target) in self.target.iter_mut().enumerate() {
             *target = -(self.residual[k] * self.scales.rows[k]);
         }
-        // Divided by a small singular value, round-off is a long way: a guess that is right to
-        // round-off beside a singular configuration stays on its sheet.
+        // Divided by a small singular value, round-off becomes a long step. Without such steps a
+        // guess that is right to round-off beside a singular configuration stays on its sheet.
         let least = match is_within(ROUND_OFF, self.residual, &self.scales) {
             true => regular(),
             false => negligible(),
@@ -245,8 +246,8 @@ fn contradiction<T: Real>(error: T, reach: T) -> T {
 }
 
 /// Smallest damping that is worth having, relative to the largest singular value
-/// squared: that of the smallest singular value that counts. Between two roots next to
-/// each other more would make steps too short ever to reach one.
+/// squared: the square of the smallest singular value that counts. Between two roots close to each
+/// other, more damping would make steps too short ever to reach one.
 fn least_damping<T: Real>() -> T {
     negligible::<T>() * negligible()
 }

@@ -10,8 +10,8 @@ use crate::equations::Bound;
 use crate::{Mechanism, Position, Real, State, Terms};
 use nalgebra::SVector;
 
-/// The same buffers serve positions and velocities, since those of a large mechanism take a
-/// good part of the stack.
+/// What a mechanism of these sizes is assembled in. Positions and velocities share the buffers,
+/// since those of a large mechanism take a good part of the stack.
 pub(super) struct Room<T, const N: usize, const R: usize> {
     position: Position<T, N, R>,
     terms: Terms<T, N, R>,

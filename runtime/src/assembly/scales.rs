@@ -17,7 +17,7 @@ const NEIGHBOURHOOD: [f64; 3] = [0.0, 0.3, -0.2];
 
 /// The square root of the least inertia of a coordinate, relative to the largest of its kind. A
 /// body that is not turned has Euler parameters that are massless to round-off;
-/// rows in which they are would be all about them, and round-off in what else they say.
+/// their entries would dominate the rows that contain them, and all others be round-off.
 const LIGHTEST: f64 = 1e-3;
 
 /// Held values that could reduce an error by this part of what the most
@@ -33,15 +33,15 @@ pub(super) const CONTRADICTION: f64 = 4096.0;
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Scales<'a, T> {
     /// `1/√M_ii`: what one unit of the scaled unknown is in units of the
-    /// coordinate; as if it had a little where there is hardly any inertia.
+    /// coordinate; where there is hardly any inertia, as if there were a little.
     pub(super) columns: &'a [T],
     /// What one unit of the equation is in units of the scaled equation: the
     /// norm of its row is about one in the kinetic metric.
     pub(super) rows: &'a [T],
     /// How large each coordinate is, at least: 1 rad, or the largest of its kind.
     pub(super) sizes: &'a [T],
-    /// How much each equation changes when the coordinates change by their sizes, or by what
-    /// they are, if that is more: its round-off is relative to that.
+    /// How much each equation changes when the coordinates change by their sizes, or by their
+    /// values where these are larger: its round-off is relative to that.
     pub(super) reach: &'a [T],
 }
 
@@ -99,7 +99,7 @@ impl<'a, T: Real> Scales<'a, T> {
         }
     }
 
-    /// The same with what is held taken out of the unknowns.
+    /// These scales with what is held taken out of the unknowns.
     pub(super) fn hold(self, held: &[bool], workspace: &Workspace<'a, T>) -> Self {
         let columns = workspace.numbers(held.len());
         for (j, column) in columns.iter_mut().enumerate().filter(|(j, _)| !held[*j]) {
@@ -108,7 +108,7 @@ impl<'a, T: Real> Scales<'a, T> {
         Self { columns, ..self }
     }
 
-    /// The same without the velocity constraints.
+    /// These scales with the velocity constraints taken out of the rows.
     pub(super) fn leave_out_velocities(
         self,
         constraints: &[ConstraintRow],

@@ -16,13 +16,13 @@ use crate::tolerance::regular;
 /// How far around a position the sign of a constraint is looked at, in sizes of the
 /// coordinates.
 const AROUND: f64 = 1e-2;
-/// Part of the largest error around a position below which one is a difference of higher order.
+/// An error below this part of the largest one around a position is of higher order.
 const HIGHER_ORDER: f64 = 1e-2;
 
 /// A constraint equation whose gradient is as good as none at the position where the
 /// constraints were evaluated last, compared with what it was around the guess, and whose
 /// error has one sign wherever it is looked at around that position, unless it follows from the
-/// others; `round_off` is what errors of one unit of [`Scales::reach`] have.
+/// others; `round_off` is that of an error, relative to [`Scales::reach`].
 pub(super) fn vanishing_row<T: Real>(
     equations: &mut dyn Equations<T>,
     (t, q): (T, &[T]),
@@ -83,8 +83,8 @@ impl<'a, T: Real> Free<'a, T> {
         }
     }
 
-    /// Where a coordinate may go, and others with it: a displacement the largest part of which is
-    /// the size of its coordinate, or zero.
+    /// The displacement that lets a coordinate go, and others with it, so far that the largest
+    /// change is the size of its coordinate; zero if the constraints hold it.
     fn along(&self, coordinate: usize, scales: &Scales<'_, T>, direction: &mut [T]) {
         let n = direction.len();
         direction.fill(T::zero());
@@ -119,7 +119,7 @@ struct Around<'a, T> {
 }
 
 impl<T: Real> Around<'_, T> {
-    /// Its error where some coordinates are moved.
+    /// The error of the constraint where some coordinates are moved.
     fn error(&mut self, change: &dyn Fn(&mut [T])) -> T {
         self.moved.copy_from_slice(self.at.1);
         change(self.moved);
@@ -150,8 +150,8 @@ impl<T: Real> Around<'_, T> {
         (least, largest)
     }
 
-    /// Whether it remains zero, but for what is of higher order than the largest error around,
-    /// along directions in which the others let the position go: then it follows from them. With
+    /// Whether the constraint remains zero, but for errors of higher order than the largest around,
+    /// along directions in which the others let the position go: then it follows from them. Needs
     /// room for such a direction.
     fn stays_zero(
         &mut self,

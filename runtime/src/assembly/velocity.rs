@@ -21,14 +21,14 @@ use core::cmp::Ordering::Equal;
 
 /// Newton steps towards a branch.
 const MOST_STEPS: usize = 60;
-/// The rest of `p₂` that the rows can't produce is accepted below this part of
-/// the quadratic terms that it is the sum of; how velocities change it counts above this part
-/// of how they change `p₂`.
+/// The rest of `p₂` that the rows can't produce counts as zero below this part of the quadratic
+/// terms whose sum it is; a change of it with velocities counts above this part of the change of
+/// `p₂`.
 const ON_BRANCH: f64 = 1e-9;
-/// The part of the quadratic terms that this rest is where the rows of a position tell along
-/// which branch the motion is, and round-off does not.
+/// Velocities along which this rest is below this part of the quadratic terms are those of a
+/// branch: the rows of the position tell it, and not their round-off.
 const ALONG_BRANCH: f64 = 1e-4;
-/// Singular values, in units of round-off, that are nothing but round-off.
+/// Singular values up to this many units of round-off are nothing but round-off.
 const ROUND_OFF: f64 = 64.0;
 /// A direction towards a branch counts if it changes that rest by this part of
 /// what the most effective one does.
@@ -108,8 +108,8 @@ fn speed<T: Real>(v: &[T], measured: &Scales<'_, T>) -> T {
     squares.sqrt()
 }
 
-/// Refuses velocities that contradict the constraints. The speed is the largest that took
-/// part in finding them.
+/// Refuses velocities that contradict the constraints. The speed is the largest of those that they
+/// were found from.
 fn check<T: Real>(
     draft: &mut Draft<'_, T>,
     speed: T,
@@ -117,7 +117,7 @@ fn check<T: Real>(
     measured: &Scales<'_, T>,
 ) -> Result<(), Refusal> {
     opening(equations, draft.v, draft.residual);
-    // Rows that count as dependent may be off by what they are.
+    // Rows that count as dependent may be off by as much as they are independent.
     let slack = T::EPSILON * T::from_f64(CONTRADICTION) + regular();
     let at = equations.constraints();
     for (k, error) in draft.residual.iter_mut().enumerate() {
@@ -138,17 +138,18 @@ struct Branches<'b, 'a, T> {
     equations: &'b mut dyn Equations<T>,
     position: (T, &'b [T]),
     measured: Scales<'a, T>,
-    /// The same, with what is held taken out.
+    /// The scales `measured` with what is held taken out of the unknowns.
     scales: Scales<'a, T>,
-    /// What the velocities that aren't held can do.
+    /// The decomposition of the rows for the velocities that aren't held.
     free: &'b mut Decomposition<'a, T>,
-    /// What all velocities can do.
+    /// The decomposition of the rows for all velocities.
     whole: &'b Decomposition<'a, T>,
 }
 
 impl<T: Real> Branches<'_, '_, T> {
-    /// Moves the free velocities to `A q̇ + b = 0`. Beside a singular configuration the rows tell
-    /// on which branch the position is, as long as they have a digit, or lead along a branch.
+    /// Moves the free velocities to `A q̇ + b = 0`. Beside a singular configuration, small singular
+    /// values tell on which branch the position is, as long as they have some digits, or if they
+    /// lead along a branch.
     fn follow(&mut self, v: &mut [T], workspace: &Workspace<'_, T>) {
         let told = T::EPSILON.sqrt();
         let round_off = T::EPSILON * T::from_f64(ROUND_OFF);
@@ -163,8 +164,8 @@ impl<T: Real> Branches<'_, '_, T> {
         self.correct(v, told, workspace);
     }
 
-    /// Whether velocities are those of a branch, but for what round-off of the position does to
-    /// rows that it has moved off a singular configuration.
+    /// Whether velocities are those of a branch, but for the round-off of the position, which may
+    /// have moved rows off a singular configuration.
     fn is_along_branch(&mut self, v: &[T], workspace: &Workspace<'_, T>) -> bool {
         let (n, n_rows) = (v.len(), self.scales.rows.len());
         let slopes = workspace.numbers(n_rows * n);
@@ -177,7 +178,7 @@ impl<T: Real> Branches<'_, '_, T> {
     }
 
     /// Moves the free velocities to `A q̇ + b = 0`, as little as they can, by the singular values
-    /// above a bound. Twice: the second correction takes the round-off of the first.
+    /// above a bound. Twice: the second correction removes the round-off of the first.
     fn correct(&mut self, v: &mut [T], least: T, workspace: &Workspace<'_, T>) {
         workspace.scope(|workspace| {
             let error = workspace.numbers(self.scales.rows.len());
@@ -207,10 +208,9 @@ impl<T: Real> Branches<'_, '_, T> {
             self.whole.leave_unreachable(rest, regular());
             let size = norm(bias) + self.usual_bias(v) + self.slopes(v, slopes, (bias, moved));
             let reached = norm(rest) <= size * T::from_f64(ON_BRANCH);
-            // Of rows that are the same the rest is round-off, and so is how it changes.
+            // Where rows are the same, the rest is round-off, and so are its changes.
             if norm(rest) > size * T::EPSILON * T::from_f64(CONTRADICTION) {
-                // Also where the branch is reached: the last step squares the
-                // error.
+                // A last step where the branch is reached, too, squares the error.
                 let noise = norm(slopes) * T::from_f64(ON_BRANCH);
                 self.make_effective(slopes, moved);
                 towards.decompose_scaled(&|k, j| slopes[j * n_rows + k])?;
@@ -238,7 +238,7 @@ impl<T: Real> Branches<'_, '_, T> {
     ) -> Result<Refusal, Refusal> {
         let columns = self.scales.columns;
         for aside in [speed, -speed] {
-            // What is held has columns of zeros.
+            // Held velocities have a scale of zero and stay.
             disturb(guess, |j| aside * columns[j], v);
             self.correct(v, regular(), workspace);
             if workspace.scope(|workspace| self.choose(v, workspace))? {
@@ -261,8 +261,8 @@ impl<T: Real> Branches<'_, '_, T> {
         }
     }
 
-    /// How large `p₂` is where rows turn as angles do: what of it is far less is round-off where
-    /// they do not turn at all.
+    /// How large `p₂` is where rows turn as angles do: a `p₂` that is far less is round-off of rows
+    /// that do not turn at all.
     fn usual_bias(&self, v: &[T]) -> T {
         let structure = self.equations.structure();
         let angles = v.iter().zip(self.measured.columns).enumerate();
@@ -270,9 +270,9 @@ impl<T: Real> Branches<'_, '_, T> {
         angles.fold(T::zero(), |sum, (_, (v, scale))| sum + *v * *v / *scale)
     }
 
-    /// How `p₂` changes with each scaled velocity, held or not; returns the sum of the sizes
-    /// of its terms, estimated from that. `p₂` is quadratic in the velocities, so that central
-    /// differences are exact. With room for a bias and a velocity.
+    /// How `p₂` changes with each scaled velocity, held or not; returns the sum of the sizes of its
+    /// terms, estimated from these changes. `p₂` is quadratic in the velocities, so that central
+    /// differences are exact. Needs room for a bias and a velocity.
     fn slopes(&mut self, v: &[T], slopes: &mut [T], (bias, moved): (&mut [T], &mut [T])) -> T {
         let two = T::from_f64(2.0);
         let mut size = T::zero();
@@ -293,7 +293,7 @@ impl<T: Real> Branches<'_, '_, T> {
     }
 
     /// Reduces the slopes to those of the free velocities, and these to the part that no
-    /// combination of rows can produce. With room for a row.
+    /// combination of rows can produce. Needs room for a row.
     fn make_effective(&mut self, slopes: &mut [T], row: &mut [T]) {
         let n_rows = self.scales.rows.len();
         for k in 0..n_rows {
@@ -310,12 +310,12 @@ impl<T: Real> Branches<'_, '_, T> {
         }
     }
 
-    /// Takes from a scaled velocity what the constraints don't leave free or somebody holds.
+    /// Removes from a scaled velocity what the constraints don't leave free, and what is held.
     fn keep_free(&mut self, velocity: &mut [T]) {
         self.free.leave_ineffective(velocity, regular());
         for (entry, scale) in velocity.iter_mut().zip(self.scales.columns) {
             if *scale == T::zero() {
-                // Held: free of the constraints, but not free.
+                // A held velocity: constraints leave it free, its value does not.
                 *entry = T::zero();
             }
         }

@@ -28,7 +28,8 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
         Ok(acceleration)
     }
 
-    /// The same where nothing is expected.
+    /// The acceleration where emitted code may not be called before anything else is asked, or was
+    /// not safe.
     #[inline(never)]
     fn careful_acceleration(
         &mut self,

@@ -17,7 +17,7 @@ pub(super) struct Aim<T> {
     pub(super) index: usize,
     /// Where that end should be (s).
     pub(super) t: T,
-    /// How often that was tried.
+    /// How often it was tried to end a step there.
     pub(super) tries: u32,
 }
 
@@ -44,7 +44,7 @@ impl<T: Real> Burst<T> {
 /// The conditions of a motion.
 #[derive(Clone, Debug)]
 pub(crate) struct Conditions<T, const N: usize> {
-    /// The state that they are known for.
+    /// The state that the conditions are known for.
     pub(super) at: Option<State<T, N>>,
     pub(super) decided: Decided<T>,
 }
@@ -52,26 +52,26 @@ pub(crate) struct Conditions<T, const N: usize> {
 /// What was decided about conditions.
 #[derive(Clone, Debug)]
 pub(crate) struct Decided<T> {
-    /// All there are.
+    /// All conditions of the mechanism.
     pub(super) list: &'static [Condition],
     /// The sides on which they are held.
     pub(super) sides: Sides,
-    /// Those that the motion slides along, a bit for each.
+    /// The conditions that the motion slides along, a bit for each.
     pub(super) sliding: u128,
-    /// Those that the motion has left after sliding along them. It does not slide along zero to
-    /// the last bit: where it leaves, the function may still be on the other side.
+    /// The conditions that the motion has left after sliding along them. It does not slide along
+    /// zero to the last bit: where it leaves, the function may still be on the other side.
     pub(super) released: u128,
     /// Filippov's weights of the forces above zero, for a motion that slides, at the last
     /// state.
     pub(super) weights: [T; Sides::ROOM],
-    /// Sides, and those slid along, with which the last step was made.
+    /// The sides, and the conditions slid along, with which the last step was made.
     pub(super) made: Option<(Sides, u128)>,
     /// The largest sizes of the switching functions so far, and of their rates.
     pub(super) sizes: [Switch<T>; Sides::ROOM],
     pub(super) aim: Option<Aim<T>>,
     /// When a condition changed last (s).
     pub(super) turned: T,
-    /// Changes in a row that hardly got any further.
+    /// Changes in a row between which the time hardly went on.
     pub(super) turns: usize,
     /// The changes that are counted together.
     pub(super) burst: Burst<T>,
@@ -116,7 +116,7 @@ impl<T: Real> Decided<T> {
     /// Begins at a time with these values of the functions.
     pub(super) fn begin(&mut self, t: T, values: &[Switch<T>]) {
         for (index, switch) in (0..).zip(values) {
-            // On the wrong side of zero for zero: the first step will show it.
+            // A function that is zero may be held on the wrong side: the first step will show it.
             self.sides.hold(index, switch.value >= T::zero());
         }
         (self.sliding, self.released, self.turns) = (0, 0, 0);

@@ -151,8 +151,8 @@ where
         self.solver.refuse_strayed(&self.mechanism, t, strays)
     }
 
-    /// The same; whether it was moved past another sheet, by more than the end of a step may
-    /// be off.
+    /// Brings a state within a step back onto the constraints; whether it was moved past another
+    /// sheet, by more than the end of a step may be off.
     pub(crate) fn project_past(
         &mut self,
         state: &mut State<T, N>,

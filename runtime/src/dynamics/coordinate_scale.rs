@@ -20,8 +20,8 @@ const SCALE_STEP: f64 = 1.125;
 pub(crate) struct CoordinateScale<T> {
     /// The largest length of the coordinates so far: what their round-off is relative to.
     pub(crate) size: T,
-    /// The same where angles of many turns count as one turn: constraints change over a
-    /// distance of about this length.
+    /// The largest length of the coordinates so far, where angles of many turns count as one turn:
+    /// constraints change over a distance of about this length.
     pub(crate) range: T,
 }
 
@@ -32,9 +32,9 @@ impl<T: Real> CoordinateScale<T> {
         self.size / self.range
     }
 
-    /// Takes note of coordinates `q`, which are used up, and up to which `sizes` none is looked
-    /// at again; `turns` tells which of them are angles that have gone round. Functions of an
-    /// angle have the round-off of an angle of one, however small it is.
+    /// Takes note of coordinates `q`, which are used up, and sets the `sizes` up to which they are
+    /// not looked at again; `turns` tells which of them are angles that have gone round. Functions
+    /// of an angle have at least the round-off of an angle of one.
     pub(super) fn extend(
         &mut self,
         structure: &Structure,

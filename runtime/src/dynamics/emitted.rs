@@ -131,8 +131,8 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
     }
 
     /// One correction by emitted code of a state that was off by `before` until the last
-    /// one. A function of its own: most states need just one correction, and in the body of a
-    /// loop the compiler would load registers for a second one.
+    /// correction. A function of its own: most states need just one correction, and in the body of
+    /// a loop the compiler would load registers for a second one.
     #[inline(never)]
     fn correct<M: Mechanism<T, N, R> + ?Sized>(
         &mut self,
@@ -207,7 +207,7 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
     }
 
     /// Whether the constraints are straight, to round-off, over the corrections of the
-    /// residual and of the velocities, so that the state is on them after one.
+    /// residual and of the velocities, so that the state is on them after one correction.
     #[inline]
     fn is_straight(&self, worst: T, squared_sine: T, velocities: &SVector<T, N>) -> bool {
         let [corrections] = &self.correction.velocity.data.0;

@@ -25,7 +25,7 @@ pub(crate) trait Constrained<T: Real>: Equations<T> {
     fn factorise_mass(&mut self) -> bool;
     /// What is known of the metric and the rows.
     fn known(&self) -> Known<'_, T>;
-    /// The same, to be changed.
+    /// What is known of the metric and the rows, to be changed.
     fn learn(&mut self) -> Learning<'_, T>;
     /// How far a state, at which the metric is factorised, is off the sheet with this tangent
     /// space; `None` where that can't be told.
@@ -86,7 +86,7 @@ impl<'s, T: Real> dyn Constrained<T> + 's {
     }
 }
 
-/// The parts of a solver that are worked on through [`Constrained`].
+/// The parts of a solver that [`Constrained`] gives access to.
 pub(crate) struct SolverView<'a, T, const N: usize, const R: usize> {
     pub(crate) equations: Bound<'a, T, N, R>,
     pub(crate) metric: &'a mut Metric<T, N>,

@@ -53,7 +53,7 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
         let (fastest, _) = self.residual(&self.position.speed(&state.v));
         let rate = self.metric.factor.length(&state.v.data.0[0]);
         let most = T::from_f64(MOST_ROUND_OFF) * round_off();
-        // False for NaN, too.
+        // Comparisons with NaN are false, so that a residual that is NaN counts as off.
         let (is_on, stays_on) = (
             worst <= most * self.coordinate_scale.size,
             fastest <= most * rate,
@@ -100,7 +100,7 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
             && self.session.chart.is_none()
     }
 
-    /// Has a chart made for the trial step; the error of the step as it is.
+    /// Takes note that the trial step needs a chart; the error with which it ends without one.
     #[cold]
     pub(crate) fn want_chart(
         &mut self,
@@ -120,7 +120,7 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
     ) -> Result<bool, DynamicsError<T>> {
         let wanted = core::mem::take(&mut self.session.trial.wants_chart);
         if wanted && self.session.chart.is_some() && !self.is_beside() {
-            // The form has a chart anyway, and looked no further.
+            // The form has a chart anyway, by which the step was not judged yet.
             self.session.near = true;
             return Ok(true);
         }
@@ -137,7 +137,7 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
         if mechanism.structure().assumed_regular {
             return Err(self.not_regular(mechanism, &base)?);
         }
-        // Where rows are redundant, others may be far from dependence.
+        // Of redundant rows, others than the chosen ones may be far from dependence.
         if self.choose_better_rows(mechanism, &base)? && self.settings.form == Form::Reduced {
             return Ok(true);
         }
@@ -307,12 +307,13 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
         let least = self.published(mechanism, state)?;
         let size = self.metric.factor.length(&least.data.0[0]);
         let base = self.session.base.map(|base| (base.q, base.v));
-        // What forces do elsewhere: in equilibrium they tell nothing of their own size.
+        // The size of the acceleration elsewhere: in equilibrium the forces do not tell their own
+        // size.
         let aside = self.lower([self.coordinate_scale.range * T::from_f64(0.25); N]);
         let moved = State::new(state.t, state.q + aside, state.v);
         let elsewhere = self.published(mechanism, &moved)?;
         let free = size.max(self.metric.factor.length(&elsewhere.data.0[0]));
-        // False for NaN, too.
+        // A comparison with NaN is false, so that an acceleration that is NaN is refused, too.
         let stays = size <= free * T::EPSILON.sqrt() && base == Some((state.q, state.v));
         if stays {
             Ok(SVector::zeros())
@@ -437,8 +438,8 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
         Ok(())
     }
 
-    /// Whether it was the choice of rows alone that came near dependence in the step at whose
-    /// end others are chosen.
+    /// Chooses other rows at the end of a step in which the chosen ones came near dependence;
+    /// whether that was due to the choice alone.
     fn leaves_dependence(
         &mut self,
         mechanism: &dyn Mechanism<T, N, R>,
@@ -449,19 +450,19 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
         Ok(chooses)
     }
 
-    /// The chart of the step remains for those who look into it.
+    /// Keeps the chart of the step, by which its inside is searched later.
     #[inline(never)]
     fn put_chart_aside(&mut self) {
         self.session.step_chart = self.session.chart.take();
     }
 
-    /// The chart by which the step was looked into remains for the same.
+    /// Keeps the chart by which the step was inspected, by which its inside is searched later.
     #[inline(never)]
     fn keep_looked(&mut self) {
         self.session.step_chart = self.session.trial.inspection_chart.take();
     }
 
-    /// The chart of the trial step is that of the next one, too. A function of its own: a
+    /// Keeps the chart at the end of the trial step for the next one. A function of its own: a
     /// chart is large, and most steps have none.
     #[inline(never)]
     fn keep_chart(&mut self) {

@@ -25,7 +25,7 @@ pub(crate) struct Squares<'a, T> {
     force: &'a [T],
     /// The triangular factor of the metric.
     metric: &'a [T],
-    /// `D̃`, and the coordinates in the chart that go with it.
+    /// `D̃`, and `D*`, which measures the coordinates in the chart.
     tangent: &'a [T],
     dual: &'a [T],
     /// The acceleration that the constraints demand.

@@ -47,7 +47,7 @@ impl<'a, T: Real> Independent<'a, T> {
             frame.set_row(place, vector);
         }
         frame.complete(count, near_dependent()).ok()?;
-        // False for NaN, too.
+        // A comparison with NaN is false, so that rows with NaN are not sure to be independent.
         let is_sure = frame.least_singular_value(count, ones, vector) > least;
         is_sure.then_some(Self { frame, count, ones })
     }

@@ -28,7 +28,7 @@ const IN_ADDITION: f64 = 0.05;
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Takes {
     None,
-    /// Those that the mechanism names.
+    /// The rows that the mechanism names.
     Named,
     All,
 }
@@ -36,12 +36,12 @@ enum Takes {
 /// What takes part in the metric.
 #[derive(Clone, Debug)]
 pub(crate) struct Parts {
-    /// Which constraints take part. Once they had to, they always do: the metric must
-    /// not change back and forth along a motion.
+    /// Which constraints take part. Once all had to, all always do: the metric must not change back
+    /// and forth along a motion.
     takes: Takes,
     /// The rows that the mechanism names.
     named: &'static [usize],
-    /// The mechanism says that what they make is singular at some positions.
+    /// Whether the mechanism says that the metric with these rows is singular at some positions.
     degenerates: bool,
     /// Whether the factor belongs to the mass matrix of this binding.
     current: bool,
@@ -53,7 +53,7 @@ impl Parts {
         self.takes = Takes::All;
     }
 
-    /// Whether it is `M` alone.
+    /// Whether the metric is `M` alone.
     pub(crate) fn is_mass_matrix(&self) -> bool {
         self.takes == Takes::None
     }
@@ -86,7 +86,7 @@ impl Parts {
     }
 }
 
-/// Notes how much inertia coordinates have, if it is more than they had.
+/// Takes note of how much inertia coordinates have, if it is more than before.
 fn observe<T: Real>(inertia: &mut [T], mass: &[T]) {
     let diagonal = mass.iter().step_by(inertia.len() + 1);
     for (inertia, mass) in inertia.iter_mut().zip(diagonal) {
@@ -199,7 +199,7 @@ impl<T: Real, const N: usize> Metric<T, N> {
         }
     }
 
-    /// Whether it is the one that emitted code uses.
+    /// Whether the metric is the one that emitted code uses.
     pub(crate) fn is_emitted(&self) -> bool {
         self.parts.takes != Takes::All
     }
@@ -228,7 +228,7 @@ impl<T: Real, const N: usize> Metric<T, N> {
                     self.parts.current = true;
                     return Ok(());
                 }
-                // Nor are rows of any help where they hold nothing.
+                // Rows are of no help where they hold nothing.
                 Err(error) if R == 0 || self.parts.degenerates => return Err(error),
                 Err(_) => self.parts.augment(),
             }
@@ -242,7 +242,7 @@ impl<T: Real, const N: usize> Metric<T, N> {
         self.parts.augment();
         let result = self.factor.factorise(&self.sum(mass, jacobian, rows));
         if result.is_err() {
-            // No other rows help here, and those that are named do elsewhere.
+            // No rows help here, and the named ones suffice elsewhere.
             self.parts.takes = Takes::Named;
         }
         result
@@ -256,9 +256,9 @@ impl<T: Real, const N: usize> Metric<T, N> {
     }
 
     /// The factor of the metric of a chart, if that is another one: where the metric degenerates as
-    /// constraints become dependent, each coordinate has a part of the largest inertia that it
-    /// had in addition. What is measured in it changes as little across a singular configuration as the
-    /// sheet does.
+    /// constraints become dependent, a part of the largest inertia that each coordinate had is
+    /// added to it. Lengths in it change as little across a singular configuration as the sheet
+    /// does.
     pub(crate) fn of_chart<const R: usize>(
         &self,
         mass: &SMatrix<T, N, N>,
@@ -281,7 +281,7 @@ impl<T: Real, const N: usize> Metric<T, N> {
         Ok(Some(factor))
     }
 
-    /// The smallest of its pivots, relative to the diagonal and to the largest such ratio so
+    /// The smallest pivot of the metric, relative to the diagonal and to the largest such ratio so
     /// far: of the order of the squared sine of constraints that become dependent.
     pub(crate) fn smallest_pivot(&self) -> T {
         let pairs = pivot_ratios(self.factor.as_slice(), &self.inertia).zip(&self.ratios);
@@ -290,7 +290,7 @@ impl<T: Real, const N: usize> Metric<T, N> {
         })
     }
 
-    /// Takes note of how large its pivots are at an accepted state.
+    /// Takes note of how large the pivots of the metric are at an accepted state.
     pub(crate) fn observe_pivots(&mut self) {
         self.view().observe_pivots();
     }

@@ -99,7 +99,7 @@ pub(crate) fn partition<'a, T: Real>(
         add_scaled(rest, -*entry, &mass[j * n..][..n]);
     }
     let columns = &mut columns[..count * n];
-    // What the weights were in is free.
+    // `units` no longer holds the weights, and serves as room.
     add_subspace_solution(mass, columns, rest, units, acceleration)
         .map_err(|column| (0..n).filter(is_free).nth(column).unwrap_or(column))
 }

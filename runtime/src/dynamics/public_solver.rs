@@ -14,8 +14,9 @@ use core::ptr;
 /// but not the mechanism: a program may change inputs and parameters between steps and
 /// bind it again with [`on`](Self::on). With another mechanism it begins anew.
 ///
-/// With the standard library its matrices are on the heap, where they are put when it is
-/// made; after that nothing is allocated. Without it they are part of it.
+/// With the standard library, its matrices are on the heap, where they are put when the solver is
+/// made; after that nothing is allocated. Without the standard library, they are part of the
+/// solver.
 #[derive(Debug)]
 pub struct Solver<T, const N: usize, const R: usize> {
     core: MaybeBoxed<Core<T, N, R>>,

@@ -19,10 +19,10 @@ use crate::tolerance::{difference, negligible, passes, regular, window};
 use crate::{DynamicsError, Mechanism, Real, Singularity, State};
 use nalgebra::SVector;
 
-/// Part of a displacement that the singular value of a row is, at least, whose gradient
-/// is lost only where the displacement begins.
+/// The singular value of a row whose gradient is lost only where a displacement begins is at least
+/// this part of the displacement.
 pub(crate) const RETURNING_GRADIENT: f64 = 1e-2;
-/// How many times the squared sine of the rows at hand that of others must be to take these.
+/// Other rows are chosen if their squared sine is this many times that of the rows at hand.
 const CLEARLY_BETTER: f64 = 4.0;
 /// Newton's corrections that bring a neighbour onto the constraints. Where their gradient
 /// vanishes wherever they hold, each halves the distance, and the gradient with it.
@@ -130,7 +130,7 @@ pub(crate) fn choose_rows<T: Real>(solver: &mut dyn Constrained<T>, workspace: &
     });
 }
 
-/// The rank at a state, or next to it if it is higher there, and where.
+/// The rank at a state, or next to it if it is higher there; writes the position that has it.
 fn rank_nearby<T: Real>(
     solver: &mut dyn Constrained<T>,
     state: At<'_, T>,
@@ -167,7 +167,7 @@ fn rank_nearby<T: Real>(
     let Some((row, rank)) = lost else {
         return Ok(rank_here);
     };
-    // What moves with the time is looked at where it stands still.
+    // Whether a row is like a square shows only where it does not depend on time.
     let stands_still = solver.structure().is_scleronomic_at(row);
     if stands_still && has_one_sign(solver, state, &decomposition, rank_here, workspace) {
         return Err(DynamicsError::SingularConfiguration {

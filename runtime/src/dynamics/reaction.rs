@@ -84,8 +84,9 @@ where
             .held_reaction(&self.mechanism, state, &acceleration))
     }
 
-    /// By how much the power of the applied forces differs, for a motion that slides, from what
-    /// its state says of them, likewise: friction that holds a body on a belt moves it.
+    /// By how much the power of the applied forces within a step, of a motion that slides, differs
+    /// from that of the forces that its state alone would give: friction that holds a body on a
+    /// belt moves it.
     pub(crate) fn sliding_power(&mut self, state: &State<T, N>) -> Result<T, DynamicsError<T>> {
         let slides = |(_, sliding)| sliding != 0;
         if !self.solver.conditions.decided.made.is_some_and(slides) {
@@ -96,7 +97,7 @@ where
         Ok(self.solver.held_power(&self.mechanism, state))
     }
 
-    /// The multipliers within a step, likewise.
+    /// The multipliers within a step; see [`acceleration_within`](Self::acceleration_within).
     pub(crate) fn multipliers_within(
         &mut self,
         state: &State<T, N>,

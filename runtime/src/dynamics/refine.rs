@@ -14,7 +14,7 @@ use crate::tolerance::{regular, round_off};
 use crate::{Mechanism, Real, Settings, State};
 use nalgebra::SVector;
 
-/// Rounds in which held values are met, each to many more digits than the one before.
+/// Corrections that bring held values about, each to many more digits than the one before.
 const ROUNDS: usize = 4;
 /// What a value that is free weighs beside one that is held.
 const FREE: f64 = 1e-6;
@@ -119,7 +119,7 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
         let length = |x: &SVector<T, N>| self.metric.factor.length(&x.data.0[0]);
         let most = T::from_f64(MISSED) * round_off();
         let [q, v] = [state.q - refined.q, state.v - refined.v];
-        // False for NaN, too.
+        // Comparisons with NaN are false, so that a state that is NaN counts as not reached.
         let reached = length(&chosen(&held.q, &q)) <= most * self.coordinate_scale.size
             && length(&chosen(&held.v, &v)) <= most * length(&state.v)
             && length(&q) <= regular::<T>() * self.coordinate_scale.size;

@@ -40,16 +40,16 @@ pub(crate) struct Rows<T, const R: usize> {
     /// Bound on the ratio of a row's squared sizes with and without the coupling of the
     /// coordinates by M; beyond it M is nearly singular, and the size is ignored.
     coupling: [T; R],
-    /// Their inverses.
+    /// The inverses of the squared reference sizes.
     inverse_size: [T; R],
     /// What rows are multiplied by to have size one.
     scale: [T; R],
     /// Weights `W` of the rows in an augmented metric; zero until known.
     weight: [T; R],
-    /// Whether they are those of the heaviest masses.
+    /// Whether the weights are those of the heaviest masses.
     uneven: bool,
     holonomic: [bool; R],
-    /// Whether they are independent at all positions, by their form.
+    /// Whether the rows are independent at all positions, by their form.
     by_form: bool,
     active: [usize; R],
     active_count: usize,
@@ -113,7 +113,8 @@ impl<T: Real, const R: usize> Rows<T, R> {
         self.size[row]
     }
 
-    /// Its inverse; infinite for a row that was never anything but zero.
+    /// The inverse of the squared reference size; infinite for a row that was never anything but
+    /// zero.
     #[inline]
     pub(crate) fn inverse_size(&self, row: usize) -> T {
         self.inverse_size[row]
@@ -148,8 +149,9 @@ impl<T: Real, const R: usize> Rows<T, R> {
         (self.active_count == self.regular && self.regular > 0).then_some((self.active, count))
     }
 
-    /// The same, but of redundant rows those that are the most independent for a Jacobian, where
-    /// that can be told; by the factor of the metric.
+    /// An independent subset that spans all rows at regular positions, if one is known: of
+    /// redundant rows, those that are the most independent for a Jacobian, where that can be told
+    /// by the factor of the metric.
     pub(crate) fn most_independent(
         &self,
         factor: &[T],
@@ -183,7 +185,7 @@ impl<T: Real, const R: usize> Rows<T, R> {
         }
     }
 
-    /// The same over slices.
+    /// The rows over slices, to be changed.
     pub(crate) fn view(&mut self) -> RowsView<'_, T> {
         RowsView {
             size: &mut self.size,
@@ -257,7 +259,7 @@ impl<T: Real> RowsView<'_, T> {
         }
     }
 
-    /// Takes note that all rows are.
+    /// Takes note that all rows are independent.
     pub(crate) fn observe_all(&mut self) {
         self.observe_rank(self.holonomic.len());
     }
@@ -288,7 +290,7 @@ impl<T: Real> RowsView<'_, T> {
             let chosen = workspace.indices(*self.regular);
             let first = |row: usize| self.holonomic[row];
             let count = independent_columns(vectors, n, &first, negligible(), chosen);
-            // In a singular configuration there are too few; those of before serve on.
+            // In a singular configuration there are too few: then the rows chosen before stay.
             if count == *self.regular {
                 self.active[..count].copy_from_slice(chosen);
                 *self.active_count = count;
@@ -302,9 +304,9 @@ impl<T: Real> RowsView<'_, T> {
         *self.holonomic_count = active.iter().filter(|&&row| self.holonomic[row]).count();
     }
 
-    /// Gives rows the weights of the heaviest masses, if the masses differ so much that
-    /// rows look dependent which are not. From the squares of the entries of `A` and the
-    /// inertia of the coordinates.
+    /// Gives rows the weights of the heaviest masses, if the masses differ so much that rows look
+    /// dependent which are not, as the squares of the entries of `A` and the inertia of the
+    /// coordinates show; whether rows have these weights.
     pub(crate) fn weigh_unevenly(
         &mut self,
         levers: &[T],
@@ -321,14 +323,15 @@ impl<T: Real> RowsView<'_, T> {
             }
             let mut least = T::one();
             for (levers, inertia) in levers.chunks_exact(r).zip(inertia) {
-                // Next to others a lever may be short, so the row counts in which it matters.
+                // A short lever may hardly count in one row and matter in another: the latter
+                // decides.
                 let mut best = T::zero();
                 for (largest, lever) in largest.iter().zip(levers) {
                     if *largest > T::zero() {
                         best = best.max(*lever / *inertia / *largest);
                     }
                 }
-                // A lever that is round-off says nothing.
+                // An entry that is round-off tells nothing.
                 if best > T::EPSILON * T::EPSILON {
                     least = least.min(best);
                 }

@@ -105,8 +105,8 @@ fn least_told<T: Real>() -> T {
     resolvable::<T>().sqrt()
 }
 
-/// The normals of a sheet that lost combinations of rows have, and what of them the other rows
-/// have not.
+/// The normals of a sheet that combinations of rows without a gradient have, and what is left of
+/// these normals beside the other rows.
 struct Normals<'a, T> {
     whole: &'a mut [T],
     /// Of length one, orthogonal to one another and to the other rows.
@@ -126,8 +126,8 @@ impl<'a, T: Real> Normals<'a, T> {
         }
     }
 
-    /// Makes what the other rows have not orthonormal, the largest first, and forgets those of
-    /// combinations that vanish everywhere.
+    /// Makes what is left of the normals beside the other rows orthonormal, the largest first, and
+    /// forgets the normals of combinations that vanish everywhere.
     fn orthonormalise(&mut self, n: usize, least: T) {
         self.count = 0;
         self.clearest = T::zero();

@@ -90,8 +90,8 @@ impl<'a, T: Real> SingularValueDecomposition<'a, T> {
         &self.left[k * r..(k + 1) * r]
     }
 
-    /// Adds to `w` what some of the combinations demand for this right-hand side: where their
-    /// directions have a part in `w`, the rest.
+    /// Adds to `w`, along the directions of some of the combinations, what it lacks to have this
+    /// right-hand side.
     pub(crate) fn decide(&self, count: usize, least: T, right: &[T], w: &mut [T]) {
         let directions = self.directions.chunks_exact(self.n);
         for (k, (value, direction)) in self.values.iter().zip(directions).enumerate().take(count) {

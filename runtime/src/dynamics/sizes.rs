@@ -28,7 +28,7 @@ const STRIDES: [f64; 2] = [0.618_033_988_749_894_9, 0.414_213_562_373_095];
 
 /// How much more than usual the masses that a row connects may be coupled for its size to
 /// count: the mass matrix may be nearly singular at some positions, where rows are as
-/// large as one likes. One that is constant is not.
+/// large as one likes. A constant mass matrix is not.
 const UNUSUAL: f64 = 4.0;
 
 /// A row nearly vanishes at the first state if it is smaller there, by this factor, than wherever
@@ -37,13 +37,13 @@ const VANISHING: f64 = 1e-3;
 
 /// Kinds of coordinates.
 type Kinds = &'static [Kind];
-/// Those whose moves leave all sizes as they are by nature.
+/// Kinds whose moves leave all sizes as they are by nature.
 const ANGLES: Kinds = &[Kind::Angle];
-/// Those that may be angles.
+/// Kinds that may be angles.
 const MAYBE_ANGLES: Kinds = &[Kind::Angle, Kind::Unknown];
-/// The same, and those of which a few belong together.
+/// Kinds that may be angles, and ratios, of which a few belong together.
 const MAYBE_ANGLES_AND_RATIOS: Kinds = &[Kind::Angle, Kind::Unknown, Kind::Ratio];
-/// All but ratios.
+/// All kinds but ratios.
 const ANY: Kinds = &[Kind::Angle, Kind::Unknown, Kind::Length];
 
 impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
@@ -60,12 +60,12 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
 struct Sizes<'a, T> {
     /// In the metric of the kinetic energy.
     whole: &'a mut [T],
-    /// In that of each coordinate alone.
+    /// In the metric of each coordinate alone.
     alone: &'a mut [T],
 }
 
 impl<'a, T: Real> Sizes<'a, T> {
-    /// Room for so many.
+    /// Room for so many sizes.
     fn new(count: usize, workspace: &Workspace<'a, T>) -> Self {
         Self {
             whole: workspace.numbers(count),
@@ -82,7 +82,7 @@ impl<'a, T: Real> Sizes<'a, T> {
         }
     }
 
-    /// Those of all rows at positions to which coordinates of some kinds are moved.
+    /// Measures all rows at positions to which coordinates of some kinds are moved.
     fn sample(
         &mut self,
         solver: &mut dyn Constrained<T>,
@@ -300,8 +300,8 @@ fn observe_ratios<T: Real>(solver: &mut dyn Constrained<T>, state: At<'_, T>, mo
     }
 }
 
-/// Whether the masses let all rows where the constraints were evaluated last be told apart: by
-/// sines as they are beyond the reach of any singular configuration.
+/// Whether the metric of the masses tells all rows apart where the constraints were evaluated last:
+/// by sines as large as they are far from all singular configurations.
 fn rows_are_apart<T: Real>(solver: &mut dyn Constrained<T>, workspace: &Workspace<'_, T>) -> bool {
     if !solver.factorise_mass() {
         return false;
@@ -309,7 +309,7 @@ fn rows_are_apart<T: Real>(solver: &mut dyn Constrained<T>, workspace: &Workspac
     let (known, jacobian) = (solver.known(), solver.constraints().jacobian);
     let r = known.r();
     let n = jacobian.len() / r;
-    // More rows than coordinates never are.
+    // More rows than coordinates can never be told apart.
     r <= n
         && workspace.scope(|workspace| {
             let vectors = workspace.numbers(jacobian.len());

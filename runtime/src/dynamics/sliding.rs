@@ -23,7 +23,7 @@ pub(super) const ROOM: usize = 16;
 pub(crate) struct Slid {
     list: [usize; ROOM],
     count: usize,
-    /// All are held below zero, the others as they are.
+    /// The sides: below zero for all of these, as they are held for the others.
     below: Sides,
 }
 
@@ -36,7 +36,7 @@ pub(crate) type Accelerate<'a, T> =
     &'a mut dyn FnMut(Sides, &mut [Switch<T>], &mut [T]) -> Result<(), DynamicsError<T>>;
 
 impl Slid {
-    /// None yet, the others held on these sides.
+    /// No conditions yet; all are held on these sides.
     pub(super) fn new(below: Sides) -> Self {
         Self {
             list: [0; ROOM],
@@ -45,7 +45,7 @@ impl Slid {
         }
     }
 
-    /// One more, if there is room for it.
+    /// Adds a condition, if there is room for it.
     pub(super) fn push(&mut self, index: usize) -> bool {
         let Some(place) = self.list.get_mut(self.count) else {
             return false;
@@ -56,7 +56,7 @@ impl Slid {
         true
     }
 
-    /// Their places among the conditions.
+    /// The places of these among all conditions.
     pub(super) fn list(&self) -> &[usize] {
         &self.list[..self.count]
     }

@@ -34,7 +34,7 @@ pub(crate) struct Core<T, const N: usize, const R: usize> {
     pub(crate) metric: Metric<T, N>,
     pub(crate) rows: Rows<T, R>,
     pub(crate) schur: SchurComplement<T, N, R>,
-    /// What cold code works in.
+    /// Memory for code that runs seldom.
     pub(crate) memory: Memory<T, N, R>,
     /// The row that came last where constraints were nearest to dependence.
     pub(crate) weakest: usize,
@@ -50,11 +50,11 @@ pub(crate) struct Core<T, const N: usize, const R: usize> {
     pub(crate) safe: Option<(T, SVector<T, N>)>,
     /// The lengths that round-off and differences of positions are measured by.
     pub(crate) coordinate_scale: CoordinateScale<T>,
-    /// The sizes of the coordinates up to which that is not measured again.
+    /// The sizes of the coordinates up to which these lengths are not measured again.
     pub(crate) sizes: [T; N],
-    /// The diagonal of the metric where that was measured; zero for integrals of states.
+    /// The diagonal of the metric where these lengths were measured; zero for integrals of states.
     pub(crate) weights: [T; N],
-    /// How far each may move in a step that is not long.
+    /// How far each coordinate may move in a step that is not long.
     pub(crate) far: [T; N],
     prepared: bool,
 }
@@ -67,7 +67,7 @@ pub(crate) enum Source {
 }
 
 impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
-    /// One that knows nothing yet.
+    /// A solver that knows nothing yet.
     #[inline(never)]
     pub(crate) fn new(settings: Settings<T>) -> Self {
         Self {
@@ -95,8 +95,8 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
         }
     }
 
-    /// Takes over that another solver is prepared, its metric, and what it measures
-    /// coordinates by.
+    /// Takes over from another solver whether it is prepared, its metric, and the lengths that it
+    /// measures coordinates by.
     pub(crate) fn adopt(&mut self, other: &Self) {
         self.prepared = other.prepared;
         self.coordinate_scale = other.coordinate_scale;
@@ -131,8 +131,8 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
         )
     }
 
-    /// Factorises the metric at a state of a trial step; where it is constraints that become
-    /// dependent, though no row shows it, the step wants a chart.
+    /// Factorises the metric at a state of a trial step; where that fails because constraints
+    /// become dependent, though no row shows it, the step wants a chart.
     pub(crate) fn factorise_trial(
         &mut self,
         mechanism: &dyn Mechanism<T, N, R>,

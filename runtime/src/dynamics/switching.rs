@@ -20,16 +20,17 @@ use crate::crossing::{Left, NODES, SAME_TIME, Samples, first_crossing, nodes, ze
 use crate::once::compiled_once;
 use crate::{Discontinuity, DynamicsError, Real, Sides, Switch, Switches, Switching, Watched};
 
-/// Attempts to end a step where one function passes zero, after the first.
+/// Attempts, after the first, to end a step where one function passes zero.
 const REFINEMENTS: u32 = 3;
 /// Switching functions that are sampled at once: the room for more has to be cleared.
 const AT_ONCE: usize = 8;
-/// Conditions that change again after this part of an attempt at a step get nowhere.
+/// Changes of conditions that follow one another within this part of an attempt at a step count as
+/// getting nowhere.
 const HARDLY_LATER: f64 = 1e-6;
-/// Changes in a row that get nowhere, besides some for each condition there is.
+/// Changes in a row that may get nowhere, besides some for each condition there is.
 const MOST_TURNS: usize = 100;
-/// Changes within the length of one attempt: what rests where it is pushed from both sides
-/// trembles by as much as noise lets it, and a run would never end.
+/// Changes that are allowed within the length of one attempt: what rests where it is pushed from
+/// both sides trembles by as much as noise lets it, and a run would never end.
 const MOST_AT_ONCE: usize = 10_000;
 
 /// The motion of a mechanism of any size in an attempt at a step.
@@ -38,12 +39,13 @@ pub(crate) trait Motion<T> {
     fn decided(&mut self) -> &mut Decided<T>;
     /// When the attempt begins and ends.
     fn ends(&self) -> (T, T);
-    /// What functions are off by in between, relative to their size there.
+    /// What functions are off by within the attempt, relative to their size there.
     fn noise(&self) -> T;
     /// Writes the values of switching functions at a time, as many as there is room for.
     fn values(&self, t: T, out: &mut Switches<'_, T>);
-    /// The same with their rates, with the conditions held as was decided. Without room, no
-    /// more than the weights of the conditions that are slid along.
+    /// Writes the values and the rates of switching functions at a time, with the conditions held
+    /// as was decided. Without room for them, only the weights of the conditions that are slid
+    /// along are found.
     fn rates(&mut self, t: T, values: &mut [Switch<T>]) -> Result<(), DynamicsError<T>>;
 }
 
@@ -65,7 +67,8 @@ impl<T: Real> dyn Motion<T> + '_ {
                 return Ok(Switching::AtStart);
             }
             Some((index, t)) => {
-                // What passes zero long before is another zero of the same function.
+                // A zero long before the end that was aimed at is another zero of the same
+                // function.
                 let near = t - start > (end - start) * T::from_f64(0.5);
                 let tries = aim
                     .filter(|aim| aim.index == index && near)
@@ -96,7 +99,8 @@ impl<T: Real> dyn Motion<T> + '_ {
         Ok(Switching::AtEnd)
     }
 
-    /// Decides the conditions at a start: those that are at zero there as the motion goes on.
+    /// Decides the conditions at a start: where functions are zero there, by how the motion goes
+    /// on.
     pub(crate) fn settle(&mut self) -> Result<(), DynamicsError<T>> {
         let (t, _) = self.ends();
         while let Some(index) = self.wrong_at(t)? {
@@ -133,7 +137,7 @@ impl<T: Real> dyn Motion<T> + '_ {
         let (start, end) = self.ends();
         let Switch { value, rate } = self.rate(end, aim.index)?;
         let change = -(value / rate);
-        // False for NaN, too: a function that only just reaches zero.
+        // False where the function only just reaches zero: the change is then infinite or NaN.
         let worth = change.abs() > same && change.abs() < (end - start) * T::from_f64(0.1);
         Ok(worth.then(|| end + change))
     }
@@ -162,7 +166,7 @@ impl<T: Real> dyn Motion<T> + '_ {
         decided.released &= !(1 << index);
         let side = decided.side(index);
         if decided.list[index].discontinuity != Discontinuity::Jump {
-            // Forces that are continuous push to the same side from both.
+            // Continuous forces push to the same side of zero from both.
             decided.sides.hold(place, side < T::zero());
             return Ok(());
         }
@@ -184,7 +188,7 @@ impl<T: Real> dyn Motion<T> + '_ {
     }
 
     /// Changes the conditions whose functions jumped to their other side with a condition that
-    /// has changed. Functions have no conditions but those before them in the list.
+    /// has changed. Functions depend on no conditions but those before them in the list.
     fn carry(&mut self, changed: usize, before: Sides, t: T) {
         let decided = self.decided();
         let (count, mut sides) = (decided.list.len().min(Sides::ROOM), decided.sides);
@@ -268,11 +272,11 @@ impl<T: Real> dyn Motion<T> + '_ {
             Discontinuity::Jump | Discontinuity::Kink => self.noise() * size + round_off,
         };
         let beyond = (-side * samples.values[0]).max(T::zero());
-        // One that has changed may still be on its other side by what a state that was put
-        // onto its sheet is off.
+        // A condition that has changed may still be on its other side, by as much as a state is
+        // moved that is put onto its sheet.
         let margin = noise + beyond;
         match earliest(&mut value, samples, side, margin)? {
-            // Where it leaves zero the interpolant is as good as the step, no better.
+            // Where the motion leaves zero, the interpolant is no better than the step.
             Some(t) if released && t < samples.times[1] => {
                 let samples = Samples::of(&mut value, (samples.times[1], ends.1))?;
                 earliest(&mut value, samples, side, margin)
@@ -285,7 +289,7 @@ impl<T: Real> dyn Motion<T> + '_ {
     fn end_of_sliding(&mut self, index: usize) -> Result<Option<T>, DynamicsError<T>> {
         let (ends, noise) = (self.ends(), self.noise());
         let mut first: Option<T> = None;
-        // What is left of either side's weight.
+        // A weight that falls to zero ends the sliding.
         for above in [true, false] {
             let mut left = |t| {
                 self.rates(t, &mut [])?;
@@ -300,7 +304,7 @@ impl<T: Real> dyn Motion<T> + '_ {
             };
         }
         if let Some(t) = first {
-            // The weights there say which side it leaves to.
+            // The weights there say to which side the motion leaves.
             self.rates(t, &mut [])?;
         }
         Ok(first)

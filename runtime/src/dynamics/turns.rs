@@ -53,7 +53,7 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
         }
     }
 
-    /// Measures that length.
+    /// Measures the length of the coordinates.
     #[inline(never)]
     fn extend_coordinate_scale(
         &mut self,
@@ -76,12 +76,12 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
         for (coordinate, ((weight, length), inertia)) in known.zip(inertia).enumerate() {
             *weight = inertia;
             *length = far / inertia.sqrt();
-            // However little inertia an angle has, all is different after a turn.
+            // A turn changes everything, however little inertia an angle has.
             if mechanism.structure().kind(coordinate) == Some(Kind::Angle) {
                 *length = length.min(T::from_f64(TAU * FAR));
             }
         }
-        // Integrals of states have no inertia that counts.
+        // The inertia of integrals of states does not count.
         let lengths = N - mechanism.structure().states;
         self.weights[lengths..].fill(T::zero());
         Ok(())
@@ -96,7 +96,7 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
         }
         let here = self.rows_at(mechanism, state);
         let mut turns = beyond;
-        // All of them together, one by one where that tells apart what they are.
+        // All of them together; if the rows change then, one by one.
         if !self.returns(mechanism, state, &here, |j| beyond[j]) {
             for j in (0..N).filter(|&j| beyond[j]) {
                 turns[j] = self.returns(mechanism, state, &here, |other| other == j);
@@ -106,7 +106,7 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
         turns
     }
 
-    /// Whether the rows are the same where some coordinates are one turn before.
+    /// Whether the rows are the same where some coordinates have gone back by one turn.
     fn returns(
         &mut self,
         mechanism: &dyn Mechanism<T, N, R>,
@@ -144,7 +144,7 @@ struct Product<T> {
 }
 
 /// The products of all rows with one vector of irrational numbers, which tell matrices apart as
-/// well as all entries do, and are as many as there are rows.
+/// well as all entries do, though there is only one for each row.
 fn products<T: Real, const N: usize, const R: usize>(
     jacobian: &SMatrix<T, R, N>,
 ) -> [Product<T>; R] {

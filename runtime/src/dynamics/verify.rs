@@ -12,11 +12,11 @@ use crate::singular::{
 use crate::tolerance::{accepted, safe_steps, window};
 use crate::{DynamicsError, Form, Mechanism, Real, Stabilisation, State, Structure};
 
-/// A sine that falls below this part of what it is at both ends of a step may have been
-/// zero between.
+/// A sine that falls below this part of its values at both ends of a step may have been zero in
+/// between.
 const FALL: f64 = 0.9;
-/// Parts of a step without a chart at whose ends it is looked at, at least and at most: a
-/// coordinate moves in each about as far as in a step that is not long.
+/// A step without a chart is inspected at the ends of at least and at most so many parts: in each a
+/// coordinate moves about as far as in a step that is not long.
 const LOOKS: usize = 4;
 const MOST_LOOKS: usize = 64;
 /// Energy that a step may lose, in units of its tolerance. By experiment: with more, steps cut
@@ -52,7 +52,7 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
         }
     }
 
-    /// The sine at the end of a step, where rows do not show it all.
+    /// Takes note of the sine at the end of a step, where rows alone do not show it.
     #[inline(never)]
     fn uncover_dependence(
         &mut self,
@@ -65,9 +65,9 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
         Ok(())
     }
 
-    /// A step with a chart, which is needed only where a state was near a singular
-    /// configuration. It is large, and so is what a function needs that takes it: the parts
-    /// of most steps are functions of their own.
+    /// Verifies a step with a chart, which is needed only where a state was near a singular
+    /// configuration. A chart is large, and so is the stack of functions that take it: what most
+    /// steps need is in functions of their own.
     #[inline(never)]
     fn verify_beside(
         &mut self,
@@ -101,9 +101,9 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
         Ok(squared.sqrt())
     }
 
-    /// A step without a chart: was it far from singular configurations all the way? Four things
-    /// make that doubtful: the sine was smaller within the step than at both ends; the step is
-    /// longer than the rate of the sine allows; the next step needs a chart; a coordinate moved
+    /// Verifies a step without a chart: was it far from singular configurations all the way? Four
+    /// things make that doubtful: the sine was smaller within the step than at both ends; the step
+    /// is longer than the rate of the sine allows; the next step needs a chart; a coordinate moved
     /// far.
     fn verify_far(
         &mut self,
@@ -133,7 +133,7 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
             return Err(self.want_chart(mechanism, end.t));
         }
         self.look_between(mechanism, (start, end), comes_near)?;
-        // Where nothing keeps a motion on the constraints, its energy drifts as it does.
+        // Where nothing keeps a motion on the constraints, its energy drifts together with it.
         match outruns_rate && self.settings.stabilisation == Stabilisation::Projection {
             true => {
                 let held = self.held_powers(mechanism, [start, end])?;
@@ -144,12 +144,14 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
     }
 
     /// Whether a coordinate has moved so far in a step that the sine may have fallen and grown
-    /// again between the states that it was seen at: anywhere, where it is seen at the ends alone.
+    /// again between the states at which it was seen. Any step is long where the sine is seen at
+    /// its ends alone.
     fn is_long(&self, start: &State<T, N>, end: &State<T, N>) -> bool {
         self.metric.hides_dependence() || self.stretch(start, end) > T::one()
     }
 
-    /// How many times as far as in a step that is not long a coordinate moves, at most.
+    /// The largest movement of a coordinate, in units of how far it may move in a step that is not
+    /// long.
     fn stretch(&self, start: &State<T, N>, end: &State<T, N>) -> T {
         let ([from], [to]) = (&start.q.data.0, &end.q.data.0);
         let moved = from.iter().zip(to).zip(&self.far);
@@ -208,7 +210,7 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
         self.settings.form != Form::Reduced || self.session.trial.near
     }
 
-    /// A step with a chart: is its end on the same sheet?
+    /// Verifies a step with a chart: is its end on the same sheet?
     #[inline(never)]
     fn verify_near(
         &mut self,
@@ -262,8 +264,9 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
         Ok(())
     }
 
-    /// Of rows that are redundant those must be about the most independent all the way of a step
-    /// that were at its beginning: their determinant tells where sheets cross.
+    /// Refuses a step with redundant rows on which the chosen rows, the most independent ones at
+    /// its start, do not remain about the most independent: their determinant tells where sheets
+    /// cross.
     fn verify_choice(
         &mut self,
         mechanism: &dyn Mechanism<T, N, R>,
@@ -285,7 +288,7 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
     }
 
     /// Evaluates the constraints at the end of a step with a chart, and factorises the metric,
-    /// unless charts have another one.
+    /// unless charts have a metric of their own.
     fn factorise_end(
         &mut self,
         mechanism: &dyn Mechanism<T, N, R>,
@@ -298,8 +301,8 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
         }
     }
 
-    /// Factorises the metric at a state; its smallest pivot, where that is what shows that
-    /// constraints become dependent, else one.
+    /// Factorises the metric at a state; its smallest pivot if that shows that constraints become
+    /// dependent, else one.
     fn pivot_at(
         &mut self,
         mechanism: &dyn Mechanism<T, N, R>,
@@ -315,7 +318,7 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
         }
     }
 
-    /// The chart that a step ends with, where its end was placed; none if that is not regular.
+    /// The chart at the end of a step, where that was placed; none if it is not regular.
     #[inline(never)]
     fn chart_after(
         &mut self,
@@ -375,7 +378,7 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
         end: &State<T, N>,
     ) -> Result<(), DynamicsError<T>> {
         let (worst, _) = self.residual(&self.position.residual);
-        // False for NaN, too.
+        // A comparison with NaN is false, so that a residual that is NaN counts as large.
         let small = self.is_negligible(worst);
         if small || self.settings.stabilisation != Stabilisation::Projection {
             Ok(())
@@ -441,7 +444,7 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
         let terms = before.balance.abs() + size + half * (held[0].abs() + held[1].abs());
         let round_off = T::from_f64(ENERGY_ROUND_OFF) * T::EPSILON * terms;
         let change = (after.balance - before.balance - supplied).abs();
-        // False for NaN, too.
+        // A comparison with NaN is false, so that an energy that is NaN does not count as kept.
         let kept = change <= part * size + uncertainty + round_off;
         if kept {
             Ok(())

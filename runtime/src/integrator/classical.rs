@@ -78,8 +78,8 @@ impl<T: Real, const N: usize> Rk4<T, N> {
         Ok(switches)
     }
 
-    /// Where the step is to be made again to, because the equations change before; none where
-    /// it stands.
+    /// The time up to which the step is to be made again, because the equations change within it;
+    /// none where it stands.
     #[cold]
     #[inline(never)]
     fn switch<Y: System<T, N> + ?Sized>(
@@ -100,13 +100,13 @@ impl<T: Real, const N: usize> Rk4<T, N> {
         Ok(Some(again))
     }
 
-    /// The polynomials between the ends, if anyone wants them.
+    /// Sets the polynomials between the ends, if anyone wants them.
     fn complete<Y: System<T, N> + ?Sized>(
         &mut self,
         system: &mut Y,
         first: &SVector<T, N>,
     ) -> Result<(), DynamicsError<T>> {
-        // Where the step ends beside a singular configuration, that may want a closer look, too.
+        // The end may lie beside a singular configuration, and want a closer look, too.
         let end = self.step.end;
         let last = escalating(system, |system| system.acceleration(&end))?;
         self.step.evaluations += 1;

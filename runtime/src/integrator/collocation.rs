@@ -19,7 +19,7 @@ use nalgebra::Complex;
 
 /// Stages that the largest method has.
 pub(super) const MOST_STAGES: usize = 5;
-/// Pairs of complex eigenvalues that it has.
+/// Pairs of complex eigenvalues that the largest method has.
 pub(super) const MOST_PAIRS: usize = 2;
 
 /// Corrections of a root that has 16 digits: enough for 106 bits and one to spare.
@@ -133,7 +133,7 @@ pub(super) fn cardinal<T: Real>(nodes: &[T], j: usize, x: T) -> T {
     product(nodes, j, x)
 }
 
-/// As [`cardinal`], where the number of nodes is known.
+/// [`cardinal`] where the compiler knows the number of nodes.
 #[inline(always)]
 pub(super) fn product<T: Real>(nodes: &[T], j: usize, x: T) -> T {
     let mut product = T::one();
@@ -155,7 +155,7 @@ pub(super) fn by_stage<T, const S: usize>(mut vectors: &[T], n: usize) -> [&[T];
     stages
 }
 
-/// One component of the vectors' sum with the first `S` weights, and what is there before.
+/// `before`, and the sum of one component of the vectors with the first `S` weights.
 #[inline(always)]
 pub(super) fn weigh<T: Real, const S: usize>(
     weights: &[T; MOST_STAGES],

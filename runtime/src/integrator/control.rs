@@ -15,8 +15,8 @@ use nalgebra::SVector;
 const SMALLEST_TOLERANCE: f64 = 10.0;
 /// Steps below this multiple of the round-off of time are refused.
 pub(crate) const SMALLEST_STEP: f64 = 4.0;
-/// Power of round-off that a step beside a singular configuration is given up at, in units of
-/// the longest one (4e-11 for `f64`).
+/// A step beside a singular configuration is given up below this power of round-off, in units of
+/// the longest step (4e-11 for `f64`).
 const CREEPING: f64 = 2.0 / 3.0;
 /// Power of round-off that steps are short at, likewise, and how many of them in a row are no way
 /// past what stands there.
@@ -40,7 +40,7 @@ pub struct Tolerance<T, const N: usize> {
     v: SVector<T, N>,
 }
 
-/// The same over slices.
+/// A [`Tolerance`] over slices.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Scale<'a, T> {
     relative: T,
@@ -123,7 +123,7 @@ impl<T: Real, const N: usize> Tolerance<T, N> {
         self.scale().norm(error, (start.q, start.v), (end.q, end.v))
     }
 
-    /// The same over slices.
+    /// The tolerance over slices.
     pub(crate) fn scale(&self) -> Scale<'_, T> {
         Scale {
             relative: self.relative,
@@ -148,7 +148,7 @@ impl<T: Real> Scale<'_, T> {
         scale.mean(sum)
     }
 
-    /// The same for `n` coordinates, which all are, so that the compiler knows their number.
+    /// The scale of all `n` coordinates, in slices whose length the compiler sees to be `n`.
     #[inline(always)]
     pub(crate) fn first(&self, n: usize) -> Self {
         Self {
@@ -190,7 +190,7 @@ pub(crate) fn check_bound<T: Real>(t: T, bound: T) -> Result<(), IntegrateError<
 pub(crate) struct Gains {
     /// Exponent of the error.
     pub(crate) reaction: f64,
-    /// Exponent of the error before.
+    /// Exponent of the error of the step before.
     pub(crate) memory: f64,
 }
 

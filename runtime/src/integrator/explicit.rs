@@ -24,8 +24,8 @@ use nalgebra::SVector;
 /// Weight of the third-order estimate in the error of DOP853, which damps the
 /// fifth-order one where that is accidentally small.
 const THIRD_ORDER_WEIGHT: f64 = 0.01;
-/// Error of the third-order result of DOP853, relative to the state, above which a step is
-/// too long for its estimates to tell what the error of the method is.
+/// Error of the third-order result of DOP853, relative to the state, above which a step is too long
+/// for its estimates to tell the error of the method.
 const TELLING: f64 = 0.02;
 
 /// Slots for derivatives: twelve stages of DOP853, the derivative at the end, three extra
@@ -197,10 +197,11 @@ impl<T: Real, const N: usize, Y: System<T, N> + ?Sized> Trial<T, N, Y> for Expli
 /// The error of the method of order 8 from its estimates of orders 5 and 3, in units of the
 /// tolerance.
 ///
-/// It is extrapolated: as much smaller than the fifth-order one as that is smaller than the
-/// third-order one, which holds while each is a small correction of the one before. On longer
-/// steps the fifth-order estimate may pass zero by chance while the error is large: they are
-/// judged by the third-order one, whose square grows with the step as the error does.
+/// The error is extrapolated: it is as much smaller than the fifth-order estimate as that is
+/// smaller than the third-order one, which holds while each is a small correction of the one
+/// before. On longer steps the fifth-order estimate may pass zero by chance while the error is
+/// large: such steps are judged by the third-order estimate, whose square grows with the step as
+/// the error does.
 fn eighth_order<T: Real>(fine: T, coarse: T, tolerance: T) -> T {
     let square = fine * fine + T::from_f64(THIRD_ORDER_WEIGHT) * coarse * coarse;
     if square == T::zero() {

@@ -22,11 +22,11 @@ pub(super) struct FactorRoom<T, const N: usize> {
 pub(super) struct Factors<'a, T> {
     /// `W` of the real eigenvalue, by rows.
     real: &'a mut [T],
-    /// Those of the complex ones.
+    /// `W` of one complex eigenvalue of each pair, by rows.
     complex: &'a mut [Complex<T>],
-    /// The orders of the rows of all.
+    /// The orders of the rows of all these matrices.
     orders: &'a mut [usize],
-    /// Room for two vectors for each.
+    /// Room for two vectors for each complex eigenvalue.
     across: &'a mut [Complex<T>],
 }
 
@@ -40,7 +40,7 @@ impl<T: Real, const N: usize> FactorRoom<T, N> {
         }
     }
 
-    /// The same over slices, with room for two vectors for each complex eigenvalue.
+    /// The factors over slices, with room for two vectors for each complex eigenvalue.
     pub(super) fn factors<'a>(&'a mut self, across: &'a mut [Complex<T>]) -> Factors<'a, T> {
         Factors {
             real: self.real.as_flattened_mut(),

@@ -124,7 +124,7 @@ impl<T: Real, const N: usize> Interpolant<T, N> {
 }
 
 /// The polynomial through both ends and values between, one coefficient after the
-/// other: each is the value that is left at an end, and is then divided out.
+/// other: each is what is left of the values at an end, which is then divided out.
 pub(crate) fn set_through<T: Real>(
     out: &mut [T],
     (start, end): (&[T], &[T]),

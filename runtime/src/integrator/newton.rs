@@ -29,9 +29,9 @@ const MOST_ITERATIONS: usize = 10;
 /// Derivatives with which Newton's iteration converges faster than this are kept
 /// for the next step.
 const GOOD_RATE: f64 = 0.02;
-/// The rates of convergence that are believed before they were seen.
+/// The best rate of convergence that is expected before one was seen.
 const BEST_RATE: f64 = 1e-3;
-/// By how much the rate is expected to be worse after a step that did not show it.
+/// The factor by which the rate is expected to be worse after a step that did not show it.
 const OLDER: f64 = 1.25;
 /// The rate that is assumed where nothing better is known.
 const UNKNOWN_RATE: f64 = 0.5;
@@ -44,7 +44,8 @@ pub(super) struct Course<T> {
     pub(super) coefficients: Collocation<T>,
     /// What may be left of Newton's iteration, in units of the tolerance.
     pub(super) enough: T,
-    /// The same where nothing improves any more.
+    /// What may be left of Newton's iteration where it no longer improves, in units of the
+    /// tolerance.
     pub(super) tolerable: T,
     /// Whether there are derivatives.
     differentiated: bool,
@@ -52,10 +53,10 @@ pub(super) struct Course<T> {
     factored: T,
     /// The length of the last accepted step; zero if there is none.
     before: T,
-    /// The worst rate of convergence in the last trial that showed one, and more the longer ago
-    /// that was.
+    /// The worst rate of convergence in the last trial that showed one, raised for each trial
+    /// since.
     rate: T,
-    /// Whether the last trial showed it: one iteration shows none.
+    /// Whether the last trial showed its rate: one iteration shows none.
     shown: bool,
 }
 
@@ -70,11 +71,11 @@ pub(crate) struct Newton<'a, T> {
     pub(super) first: &'a [T],
     /// Accelerations of the stages of the trial step.
     pub(super) a: &'a mut [T],
-    /// Those of the last accepted step.
+    /// Accelerations of the stages of the last accepted step.
     pub(super) before: &'a [T],
     /// The end of the trial step.
     pub(super) end: (&'a mut [T], &'a mut [T]),
-    /// Its error estimate.
+    /// The error estimate of the trial step.
     pub(super) estimate: (&'a mut [T], &'a mut [T]),
 }
 
@@ -82,7 +83,7 @@ pub(crate) struct Newton<'a, T> {
 struct Room<'a, T> {
     /// Coordinates of the stages.
     q: &'a mut [T],
-    /// Their velocities.
+    /// Velocities of the stages.
     v: &'a mut [T],
     /// The accelerations that follow from them.
     found: &'a mut [T],
@@ -126,9 +127,9 @@ impl<T: Real> Course<T> {
 }
 
 impl<'a, T: Real> Room<'a, T> {
-    /// For so many stages of `n` coordinates.
+    /// Room for so many stages of `n` coordinates.
     fn new(stages: usize, n: usize, workspace: &Workspace<'a, T>) -> Self {
-        // Taken at once, since there is a price for each piece.
+        // All in one piece, since each piece has a price.
         let all = workspace.any((3 * stages + 2) * n);
         let (q, all) = all.split_at_mut(stages * n);
         let (v, all) = all.split_at_mut(stages * n);
@@ -222,8 +223,8 @@ impl<T: Real> Newton<'_, T> {
         let h = rule.h;
         self.prepare(flow, start, h, workspace)?;
         let failure = IntegrateError::NewtonDiverged { t: start.t, h };
-        // The rate of the last steps until this one has shown its own. Derivatives grow older in
-        // steps of one iteration, which show none.
+        // The rate of the last steps is used until this one has shown its own. Steps of one
+        // iteration show none, while the derivatives grow older.
         let unknown = T::from_f64(UNKNOWN_RATE);
         let expected = self.course.rate.max(T::from_f64(BEST_RATE)).min(unknown);
         self.course.rate = (expected * T::from_f64(OLDER)).min(unknown);

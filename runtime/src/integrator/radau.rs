@@ -53,7 +53,7 @@ pub(crate) struct Radau<T, const N: usize> {
     first: SVector<T, N>,
     /// Accelerations of the stages of the trial step.
     a: StageVectors<T, N>,
-    /// Those of the last accepted step.
+    /// Accelerations of the stages of the last accepted step.
     before: StageVectors<T, N>,
     /// Error estimate of the trial step.
     estimate: (SVector<T, N>, SVector<T, N>),

@@ -43,8 +43,8 @@ impl<T: Real, const S: usize> Rule<T, S> {
         }
     }
 
-    /// One coordinate of stage `i` and its velocity, of those at the start and the
-    /// accelerations of all stages.
+    /// One coordinate of stage `i` and its velocity, from those at the start and the accelerations
+    /// of all stages.
     #[inline(always)]
     pub(super) fn state(&self, i: usize, (q, v): (T, T), a: &[T; S]) -> (T, T) {
         let moved = weigh(&self.square[i], a, self.nodes[i] * v);
@@ -68,7 +68,7 @@ impl<T: Real, const S: usize> Rule<T, S> {
     }
 }
 
-/// As [`by_stage`], to be changed.
+/// The vectors of `S` stages, which are one after the other, to be changed.
 #[inline(always)]
 pub(super) fn by_stage_mut<T, const S: usize>(vectors: &mut [T], n: usize) -> [&mut [T]; S] {
     let mut rest = vectors;

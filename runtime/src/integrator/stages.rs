@@ -10,7 +10,7 @@ use nalgebra::SVector;
 /// Derivatives of `(q, q̇)` in `S` slots.
 #[derive(Clone, Debug)]
 pub(super) struct Stages<T, const N: usize, const S: usize> {
-    /// Velocities and accelerations of each, which are combined in one go.
+    /// Velocities and accelerations of each slot, which are combined in one go.
     slots: [[[T; N]; 2]; S],
 }
 

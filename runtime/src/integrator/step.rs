@@ -77,7 +77,7 @@ impl<T: Real, const N: usize> Step<T, N> {
             .set_stages((&self.start, &self.end), nodes, states);
     }
 
-    /// The same step, ended earlier.
+    /// This step up to an earlier end.
     pub(crate) fn cut(&self, end: State<T, N>) -> Self {
         Self {
             end,

@@ -122,7 +122,7 @@ impl<'a, T: Real> Block<'a, T> {
     pub(crate) fn smallest(&mut self, workspace: &Workspace<'_, T>) -> T {
         match self.size {
             0 => T::one(),
-            // False for NaN, too.
+            // A comparison with NaN is false, so that an entry that is NaN counts as zero.
             1 => match self.first().abs() > T::zero() {
                 true => self.first().abs().min(T::one()),
                 false => T::zero(),
@@ -186,7 +186,7 @@ fn smallest_pivot<T: Real>(
             }
         }
         let row = open[place];
-        // False for NaN, too.
+        // A comparison with NaN is false, so that a peak that is NaN counts as zero.
         let is_left = peaks[row] > T::zero();
         if !is_left {
             return T::zero();

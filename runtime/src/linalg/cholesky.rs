@@ -40,7 +40,7 @@ fn eliminate_definite<T: Real>(matrix: &[T], rest: &mut [T], n: usize, open: &mu
         let ratio = |j: usize| rest[j * (n + 1)] / matrix[j * (n + 1)];
         let mut best = 0;
         for place in 1..left {
-            // NaN gives way.
+            // A comparison with NaN is false, so that a ratio that is NaN gives way.
             let stays = ratio(open[best]) >= ratio(open[place]);
             if !stays {
                 best = place;
@@ -50,7 +50,7 @@ fn eliminate_definite<T: Real>(matrix: &[T], rest: &mut [T], n: usize, open: &mu
         // In their order, so that of equal ones the first is taken.
         open[best..left].rotate_left(1);
         let pivot = rest[next * (n + 1)];
-        // False for NaN, too.
+        // A comparison with NaN is false, so that a pivot that is NaN is not definite.
         let is_large = pivot > definite::<T>() * matrix[next * (n + 1)];
         if !is_large {
             return false;
@@ -148,7 +148,7 @@ pub(crate) fn lift_row<T: Real>(
     solve_upper(upper, lifted);
 }
 
-/// The same for some rows, one after the other, each multiplied by its scale.
+/// `U⁻¹aᵀ` for some rows `a` of a Jacobian, one after the other, each multiplied by its scale.
 pub(crate) fn lift_rows<T: Real>(
     upper: &[T],
     jacobian: &[T],

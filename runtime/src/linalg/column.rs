@@ -24,7 +24,7 @@ pub(crate) fn dot<T: Real>(a: &[T], b: &[T]) -> T {
     long_dot(a, b)
 }
 
-/// The same for long columns.
+/// The scalar product of long columns, summed in lanes.
 #[inline(never)]
 fn long_dot<T: Real>(a: &[T], b: &[T]) -> T {
     let mut sum = T::zero();

@@ -92,7 +92,8 @@ impl<T: Real> Frame<'_, T> {
         }
     }
 
-    /// The same; where all steps are meant, the compiler knows their number.
+    /// The solution for the rows of the first steps, before columns are scaled. Where `steps` is
+    /// written as `N`, the compiler knows their number.
     #[inline(always)]
     fn solve_steps<const N: usize>(&self, steps: usize, right: &[T; N]) -> [T; N] {
         let (rows, columns) = (&self.order.rows[..N], &self.order.columns[..N]);

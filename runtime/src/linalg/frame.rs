@@ -297,7 +297,7 @@ impl<'a, T: Real> Frame<'a, T> {
         }
     }
 
-    /// The same in a short frame.
+    /// Subtracts from a row of a short frame what makes its entries in some pivot columns vanish.
     fn reduce_short(&mut self, row: usize, steps: Range<usize>) {
         let n = self.n;
         let order = self.order.rows[steps.clone()].iter();

@@ -136,7 +136,7 @@ impl<'a, T: Real> RowProducts<'a, T> {
                 }
             }
             let pivot = column[0];
-            // False for NaN, too.
+            // A comparison with NaN is false, so that a pivot that is NaN is not safe.
             let is_large = pivot * most_inverse() > self.squares[j].max(T::one());
             let component = self.component[j];
             if !is_large {

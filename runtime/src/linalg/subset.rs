@@ -43,7 +43,7 @@ pub(crate) fn independent_columns<T: Real>(
         let Some((next, (_, size))) = best else {
             return found;
         };
-        // False for NaN, too.
+        // A comparison with NaN is false, so that nothing of a size that is NaN is chosen.
         let enough = size > least;
         if !enough {
             return found;

@@ -46,7 +46,7 @@ pub(crate) fn add_subspace_solution<T: Real>(
     add_subspace_solution_of(force.len(), mass, directions, force, image, sum)
 }
 
-/// The same for so many coordinates.
+/// Adds `D z` to a sum, for `n` coordinates: the compiler knows their number where it is constant.
 #[inline(always)]
 fn add_subspace_solution_of<T: Real>(
     n: usize,

@@ -39,7 +39,7 @@ fn eliminate<T: Real>(
     (i, j): (usize, usize),
 ) -> bool {
     let (a, b, between) = (matrix[i * n + i], matrix[j * n + j], matrix[i * n + j]);
-    // False for NaN, too.
+    // A comparison with NaN is false, so that an entry that is NaN turns no axes.
     let counts = between.abs() > T::EPSILON * (a.abs() + b.abs());
     if !counts {
         return false;

@@ -26,8 +26,8 @@ impl<'a, T: Real> Workspace<'a, T> {
         Self::of([first, second, &mut [], &mut []], indices)
     }
 
-    /// The same of more pieces. What is left of one when a matrix no longer fits is there for
-    /// vectors.
+    /// A workspace of several pieces of memory. What is left of a piece when a matrix no longer
+    /// fits is there for vectors.
     pub(crate) fn of(numbers: [&'a mut [T]; PIECES], indices: &'a mut [usize]) -> Self {
         Self {
             numbers: numbers.map(Cell::new),

@@ -50,7 +50,8 @@ impl<T: Real> EnergyAudit<T> {
         Self::of(None)
     }
 
-    /// The same for steps of an accepted relative error, or of a fixed length.
+    /// An audit that has seen nothing yet, for steps of an accepted relative error, or of a fixed
+    /// length.
     pub(crate) fn of(tolerance: Option<T>) -> Self {
         let number = T::from_f64;
         let part = tolerance.map_or(number(OF_FIXED), |tolerance| tolerance * number(PART));

@@ -94,7 +94,7 @@ impl<T: Real> Integral<T> {
         let differs = (sum - self.value).abs() / size;
         let contracts = differs <= limits.differed * T::from_f64(CONTRACTED);
         let is_noise = differs <= T::from_f64(NOISE) && !contracts;
-        // False for NaN, where the function vanishes.
+        // Where the function vanishes, `differs` is NaN, with which comparisons are false.
         let goes_on = size > limits.least && differs > limits.accuracy && !is_noise;
         if !goes_on || depth == 0 || *most == 0 {
             return Ok(sum);

@@ -115,8 +115,8 @@ impl<T: Real, const N: usize, const R: usize> Stepper<T, N, R> {
         })
     }
 
-    /// The same within a deadline: moves `state` on by `span` seconds with at most `most`
-    /// evaluations of the equations of motion and says how many it took.
+    /// Moves `state` on by `span` seconds within a deadline: with at most `most` evaluations of the
+    /// equations of motion; says how many it took.
     ///
     /// All other work of a step is in proportion to them, because every loop of the
     /// runtime is over sizes of the mechanism, or has a constant bound, or evaluates the

@@ -23,14 +23,14 @@ use crate::tolerance::{excusable, resolved};
 use crate::{ConnectedComponent, Real, State};
 use nalgebra::{SMatrix, SVector};
 
-/// A chart of the sheet on which the motion lives. What there is of each coordinate or row
-/// is in the order of the factors.
+/// A chart of the sheet on which the motion lives. Coordinates and rows are in the order of the
+/// factors.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Chart<T, const N: usize, const R: usize> {
     components: &'static [ConnectedComponent],
     /// `D`: the columns of each factor one after the other, orthonormal in the metric.
     tangent: SMatrix<T, N, N>,
-    /// `M D`, likewise.
+    /// `M D`: its columns in the same order.
     dual: SMatrix<T, N, N>,
     /// The triangular factors of the blocks of the metric.
     metric: SMatrix<T, N, N>,
@@ -39,8 +39,8 @@ pub(crate) struct Chart<T, const N: usize, const R: usize> {
     q: [T; N],
     /// The velocity of the sheet where the coordinates of the chart rest.
     drift: [T; N],
-    /// Its direction, of length one in each factor, or the last one that it had before it
-    /// nearly vanished.
+    /// The direction of that velocity, of length one in each factor, or the last direction that it
+    /// had before it nearly vanished.
     heading: [T; N],
     /// How large the coordinates are.
     sizes: [T; N],
@@ -51,7 +51,7 @@ pub(crate) struct Chart<T, const N: usize, const R: usize> {
     column_places: [usize; N],
     /// Constraint rows that are independent at regular states.
     rows: [usize; R],
-    /// The place of each row among these; their number for one that is not.
+    /// The place of each row among the independent ones; their number for a row that is none.
     places: [usize; R],
     factors: [Factor<T>; N],
     /// The lengths that round-off and differences of positions are measured by.
@@ -63,7 +63,7 @@ pub(crate) struct Chart<T, const N: usize, const R: usize> {
 impl<T: Real, const N: usize, const R: usize> Chart<T, N, R> {
     /// A chart at a state from vectors that span the tangent space there, those of each factor
     /// one after the other; `None` if they are dependent. Of constraint rows that are redundant,
-    /// it takes those that are the most independent where the Jacobian is from.
+    /// it takes those that are the most independent where the Jacobian was evaluated.
     #[inline(never)]
     pub(crate) fn new(
         base: &State<T, N>,
@@ -111,7 +111,7 @@ impl<T: Real, const N: usize, const R: usize> Chart<T, N, R> {
             order_columns(part, jacobian, chosen, column_places, workspace);
             let squares = at.squares..at.squares + part.n * part.n;
             let block = &mut chart.metric.as_mut_slice()[squares];
-            // Between the parts there is nothing, and nothing is filled in.
+            // The metric has no entries between parts, and neither has its triangular factor.
             part.take_block(factor, block);
             set_units(block, &mut chart.column_scale[coordinates]);
             let columns = at.tangents..at.tangents + part.n * freedoms;
@@ -144,9 +144,9 @@ impl<T: Real, const N: usize, const R: usize> Chart<T, N, R> {
         Some(freedoms)
     }
 
-    /// Takes note of how fast the sheet moves, and of how fast and where to it did before. Rows
-    /// that are turned or scaled by a law of time move nothing, but for round-off beside the
-    /// velocity `v`.
+    /// Takes note of how fast the sheet moves, and of how fast and in which direction it moved
+    /// before. Rows that are turned or scaled by a law of time move nothing, but for round-off
+    /// beside the velocity `v`.
     pub(crate) fn set_drift(
         &mut self,
         drift: &SVector<T, N>,
@@ -195,12 +195,12 @@ impl<T: Real, const N: usize, const R: usize> Chart<T, N, R> {
         across
     }
 
-    /// What is known of its factors.
+    /// What is known of the factors of the chart.
     pub(crate) fn factors(&self) -> &[Factor<T>; N] {
         &self.factors
     }
 
-    /// The same, to be changed.
+    /// What is known of the factors of the chart, to be changed.
     pub(crate) fn factors_mut(&mut self) -> &mut [Factor<T>; N] {
         &mut self.factors
     }
@@ -252,14 +252,14 @@ fn orthonormalise<T: Real>(factor: &[T], vectors: &mut [T], duals: &mut [T], n: 
     for i in 0..count {
         let lifted = &mut duals[i * n..(i + 1) * n];
         multiply_upper_transposed(factor, &vectors[i * n..(i + 1) * n], lifted);
-        // The second time takes the round-off of the first.
+        // The second pass removes the round-off of the first.
         for other in (0..i).chain(0..i) {
             let [lifted, other] = pair(duals, n, i, other);
             add_scaled(lifted, -dot(other, lifted), other);
         }
         let lifted = &mut duals[i * n..(i + 1) * n];
         let size = norm(lifted);
-        // False for NaN, too.
+        // A comparison with NaN is false, so that a vector that is NaN counts as dependent.
         let enough = size > T::EPSILON;
         if !enough {
             return false;

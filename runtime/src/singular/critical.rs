@@ -62,8 +62,8 @@ impl<T: Real> Sheet<'_, T> {
         if !self.kind.holonomic {
             return Ok(true);
         }
-        // Several loops have no one place where all of them are singular, a law of time may
-        // lead there and back, and the critical configuration is sought with rows as they are.
+        // No search where several loops need not become singular at one place, where a law of time
+        // may lead there and back, or where rows are shifted: the search takes rows as they are.
         if like.block().size() != 1 || direction.is_of_time || direction.is_shifted {
             return self.vanishes_at_centre(state, like, direction, best, workspace);
         }
@@ -74,7 +74,7 @@ impl<T: Real> Sheet<'_, T> {
         let bound = critical::<T>() * cross.round_off;
         let off =
             (best.error + resolved()) * self.chart.coordinate_scale.range * T::from_f64(ASIDE);
-        // The directions are those at the nodes; by so much they turn on the way.
+        // The directions are those at the nodes; this is how much they may turn on the way.
         let turned = search.distance * search.distance / self.chart.coordinate_scale.range;
         let settles = unsure <= cross.round_off || aside <= off + turned;
         if unsure > bound || !settles {
@@ -143,7 +143,7 @@ impl<T: Real> Sheet<'_, T> {
                 break;
             }
             (place, aside) = (place - ahead, aside - off);
-            // False for NaN, too.
+            // A comparison with NaN is false, so that a place that is NaN is not inside.
             let inside = place.abs() < T::one();
             if !inside {
                 return Err(Obstacle::Unresolved);
@@ -184,9 +184,9 @@ impl<T: Real> Sheet<'_, T> {
         })
     }
 
-    /// How far the coordinates reach along the rows at hand, with room for a vector: what
-    /// their round-off adds up to in a row. Where masses are unlike each other, that is far
-    /// less than they reach along the heaviest.
+    /// The largest length of the coordinates along one of the rows at hand, whose round-off is that
+    /// of the row; needs room for a vector. Where masses are very unlike each other, it is far less
+    /// than the length of the coordinates along the heaviest.
     fn reach_of_rows(&self, lifted: &mut [T]) -> T {
         let chart = &self.chart;
         let jacobian = self.equations.constraints().jacobian;

@@ -11,7 +11,7 @@ use crate::linalg::{Block, Eliminated, Frame, Workspace};
 /// What changes its sign where sheets cross.
 pub(super) struct DeterminantSigns<'a, T> {
     block: Block<'a, T>,
-    /// That of the determinant of the whole system.
+    /// Whether the determinant of the whole system is negative.
     pub(super) negative: bool,
 }
 
@@ -28,10 +28,10 @@ impl<'a, T: Real> DeterminantSigns<'a, T> {
         if self.negative { -size } else { size }
     }
 
-    /// How many sheets were crossed on the way from others. Blocks count them, and determinants
-    /// tell whether their number is odd. A block also changes its sign where one of the rows
-    /// before it loses its pivot, which is no crossing by itself, and may hide one: then it is at
-    /// least one less.
+    /// How many sheets were crossed on the way from the state of other signs. Blocks count them,
+    /// and determinants tell whether their number is odd. A block also changes its sign where one
+    /// of the rows before it loses its pivot, which is no crossing by itself, and may hide one:
+    /// then the number is at least one less.
     pub(super) fn changes_from(
         &self,
         other: &DeterminantSigns<'_, T>,
@@ -53,10 +53,10 @@ pub(crate) struct Reference<'a, T> {
 }
 
 impl<T: Real> Sheet<'_, T> {
-    /// Of so many positions the one nearest to a singular configuration, whose order of
-    /// elimination serves all of them: its small pivots come last, in one block, so that every
-    /// change of sign on the way is one of the block. An order from a regular position may leave
-    /// two such rows out of it. `None` where the constraints can't be eliminated at one of them.
+    /// Which of `count` positions is nearest to a singular configuration. Its order of elimination
+    /// serves all of them: its small pivots come last, in one block, so that every change of sign
+    /// on the way is one of the block. An order from a regular position may leave two such rows out
+    /// of the block. `None` where the constraints can't be eliminated at one of them.
     pub(super) fn nearest(
         &mut self,
         count: usize,

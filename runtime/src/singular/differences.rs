@@ -5,7 +5,7 @@
 
 use crate::Real;
 
-/// Values that it takes.
+/// Values of the function that are used.
 pub(super) const VALUES: usize = 5;
 
 /// The derivatives of the polynomial through all values.
@@ -17,7 +17,7 @@ const WEIGHTS: [[f64; VALUES]; VALUES] = [
     [3.0, -16.0, 36.0, -48.0, 25.0],
 ];
 
-/// One of the equidistant places between two, which are the first and the last of them.
+/// Place `k` of the equidistant ones, of which the first and the last are given.
 pub(super) fn place<T: Real>((from, to): (T, T), k: usize) -> T {
     match k + 1 == VALUES {
         true => to,
@@ -25,7 +25,7 @@ pub(super) fn place<T: Real>((from, to): (T, T), k: usize) -> T {
     }
 }
 
-/// How fast a function changes where it has these values, so far apart.
+/// How fast a function changes at equidistant places, from its values there.
 pub(super) fn differentiated<T: Real>(values: [T; VALUES], distance: T) -> [T; VALUES] {
     WEIGHTS.map(|weights| {
         let terms = weights

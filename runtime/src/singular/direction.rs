@@ -19,8 +19,8 @@ use crate::tolerance::{difference, hull, spacing, window};
 /// Directions that are tried where several loops are nearly singular at once.
 const TRIALS: usize = 16;
 
-/// Coordinates of the chart, time among them, up to which the change of the block along
-/// each is kept: what it is along any direction then follows.
+/// Up to so many coordinates of the chart, time among them, the change of the block along each is
+/// kept; the change along any direction follows from these.
 const FEW: usize = 4;
 
 /// Share of the coordinates in a direction, below which nothing but time moves along it.
@@ -36,7 +36,7 @@ pub(super) struct Direction<'a, T> {
     /// How the constraint rows that move are shifted along it, in the order and scale of the
     /// frame's rows.
     shift: &'a mut [T],
-    /// Whether any is.
+    /// Whether any row is shifted.
     pub(super) is_shifted: bool,
     /// Whether nothing but time moves along it.
     pub(super) is_of_time: bool,
@@ -49,7 +49,7 @@ pub(super) struct Direction<'a, T> {
 }
 
 impl<'a, T: Real> Direction<'a, T> {
-    /// One that leads nowhere, for a block of this size.
+    /// A direction that leads nowhere, for a block of this size.
     fn new(n: usize, size: usize, workspace: &Workspace<'a, T>) -> Self {
         Self {
             q: workspace.numbers(n),
@@ -72,9 +72,9 @@ impl<'a, T: Real> Direction<'a, T> {
         self.change.set(&other.change);
     }
 
-    /// Whether a block that was found a distance along it has the signs that the one at its
-    /// start comes to there. On the other of two sheets that cross it has opposite ones. A law
-    /// of time may turn back on the way, so that signs tell nothing.
+    /// Whether a block that was found at a distance along the line has the signs to which the block
+    /// at its start changes up to there. On the other of two sheets that cross, it has opposite
+    /// signs. A law of time may turn back on the way, so that signs tell nothing along time.
     pub(super) fn leads_to(
         &self,
         there: &Block<'_, T>,
@@ -134,15 +134,15 @@ struct Search<'a, 'b, T> {
     moving: Moving<'a, T>,
 }
 
-/// The best direction so far, and its score; none yet if that is not known.
+/// The best direction so far, and its score: none until a direction was judged.
 struct Best<'a, T> {
     direction: Direction<'a, T>,
     score: Option<T>,
 }
 
 impl<T: Real> Sheet<'_, T> {
-    /// The best direction through a state with this elimination; if the sheet moves, by this
-    /// parameter.
+    /// The best direction through a state with this elimination. If the sheet moves, `parameter`
+    /// says what moves it along the line.
     #[inline(never)]
     pub(super) fn direction<'b>(
         &mut self,
@@ -196,7 +196,7 @@ impl<T: Real> Sheet<'_, T> {
             *entry = change.first();
         }
         let size = norm(gradient);
-        // False for NaN, too.
+        // A comparison with NaN is false, so that a gradient that is NaN counts as none.
         let changes = size > T::zero();
         if !changes {
             return Err(Obstacle::Unresolved);
@@ -247,8 +247,9 @@ impl<T: Real> Sheet<'_, T> {
         Ok(())
     }
 
-    /// How rows are shifted when the sheet moves on by one unit of length, as it moved last:
-    /// by what the law of time does to them in a while; `false` if that is nothing.
+    /// How rows are shifted when the sheet moves on by one unit of length in the direction in which
+    /// it moved last: in proportion to what the law of time does to them in a while. `false` if
+    /// that is nothing.
     fn shift(&mut self, state: At<'_, T>, rows: &mut [T]) -> bool {
         let chart = self.chart;
         let duration = spacing::<T>() * chart.coordinate_scale.range / chart.speed;
@@ -265,7 +266,7 @@ impl<T: Real> Sheet<'_, T> {
         for entry in &mut *rows {
             *entry *= share;
         }
-        // False for NaN, too: where nothing moved, or was seen to.
+        // False where nothing moved, and where no row was seen to: the share is then NaN.
         share.abs() > T::zero()
     }
 
@@ -377,7 +378,7 @@ fn meeting<T: Real>(
     let mut nearest = T::from_f64(f64::INFINITY);
     for (i, value) in values.iter().enumerate() {
         let centre = -*value / slopes.row(i)[i];
-        // False for NaN.
+        // A comparison with NaN is false, so that a value that is and stays zero is passed over.
         if centre.abs() < nearest.abs() {
             nearest = centre;
         }
@@ -398,8 +399,8 @@ fn spread_evenly<T: Real>(trial: usize, vector: &mut [T]) {
     }
 }
 
-/// The smallest sine of nodes on both sides of a place, to first order; of no interest
-/// where it is not above a score that another place has, and then only a bound of it.
+/// The smallest sine of nodes on both sides of a place, to first order; where it is not above the
+/// best score so far, nothing but an upper bound of it.
 fn clearance_of<T: Real>(
     here: &Block<'_, T>,
     change: &Block<'_, T>,

@@ -8,10 +8,11 @@ use crate::equations::At;
 
 /// Passages that are found in one search.
 const ROOM: usize = 8;
-/// Loops that become singular within this part of a step do so at once, at least.
+/// Loops that become singular within this part of a step do so at once, whatever the tolerance.
 const AT_ONCE: f64 = 1e-6;
-/// The part of a step within which they do so, in tolerances: the inside of a step is off by
-/// about one of the range of the coordinates, of which a step is a part.
+/// The part of a step within which loops become singular at once, in tolerances: the inside of a
+/// step is off by about one tolerance, relative to the range of the coordinates, of which a step is
+/// a part.
 const TOLERANCES: f64 = 10.0;
 
 /// A passage through a singular configuration.
@@ -23,7 +24,7 @@ pub struct Passage<T> {
     pub sine: T,
     /// How many constraint equations are independent there.
     pub rank: usize,
-    /// How many are at regular configurations.
+    /// How many are independent at regular configurations.
     pub regular: usize,
 }
 
@@ -77,7 +78,7 @@ pub(crate) struct Found<T> {
 }
 
 impl<T: Real> Found<T> {
-    /// None yet of those that are sought.
+    /// No passage found yet of those that are sought in a step.
     pub(super) fn new(step: &Searched<'_, T>) -> Self {
         Self {
             list: [None; ROOM],
@@ -93,7 +94,7 @@ impl<T: Real> Found<T> {
         self.list.iter().flatten()
     }
 
-    /// The time after which there are more passages than found room, if there are.
+    /// The time after which to look for the passages that found no room, if there are any.
     pub(crate) fn rest_after(&self) -> Option<T> {
         let last = self.list.last()?.filter(|_| self.has_more)?;
         Some(last.t + self.at_once)

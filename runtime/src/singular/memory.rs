@@ -46,7 +46,7 @@ pub(crate) struct Memory<T, const N: usize, const R: usize> {
     indices: [[usize; N]; LISTS],
 }
 
-/// What is in memory is nobody's: that on the heap is not copied.
+/// The contents of the memory are of no use later: a copy begins without those on the heap.
 impl<T: Clone, const N: usize, const R: usize> Clone for Memory<T, N, R> {
     fn clone(&self) -> Self {
         Self {
@@ -80,11 +80,11 @@ impl<T: Real, const N: usize, const R: usize> Memory<T, N, R> {
         }
     }
 
-    /// All of it.
+    /// A workspace of the whole memory.
     pub(crate) fn workspace(&mut self) -> Workspace<'_, T> {
         #[cfg(feature = "std")]
         if (N > SMALL || R > N + SMALL) && self.matrices.is_empty() {
-            // Of zeros, which the system gives without a page being touched.
+            // The system hands out zeros without a page being touched.
             self.matrices = vec![T::zero(); MATRICES * N * N];
             self.decomposed = vec![T::zero(); DECOMPOSED * R * R];
         }

@@ -5,9 +5,8 @@
 //!
 //! With one degree of freedom and constraints that do not depend on time the sheet is a
 //! curve that stays where it is. A node is a point of it, whichever state it was found
-//! for, so it is right for all stages of a step and for the steps after it. In another
-//! chart only what its tangent and its acceleration are measured by changes:
-//! `D* D̃ = 1`, and `D* aₚ = 0`.
+//! for, so it is right for all stages of a step and for the steps after it. In another chart only
+//! the conditions on its tangent and its acceleration change: `D* D̃ = 1`, and `D* aₚ = 0`.
 
 use super::direction::Direction;
 use super::nodes::{BEYOND, Interpolated, weights_of_sets};
@@ -20,12 +19,12 @@ use crate::linalg::{Workspace, add_scaled, dot};
 use crate::tolerance::hull;
 
 impl<T: Real> Sheet<'_, T> {
-    /// The first coordinate in the chart.
+    /// The first coordinate of a vector in the chart.
     fn along(&self, x: &[T]) -> T {
         dot(&self.chart.dual[..x.len()], x)
     }
 
-    /// That of what leads from one position to another.
+    /// The first coordinate, in the chart, of the displacement from one position to another.
     fn ahead(&self, from: &[T], to: &[T]) -> T {
         let n = to.len();
         let (dual, from) = (&self.chart.dual[..n], &from[..n]);
@@ -48,7 +47,7 @@ impl<T: Real> Sheet<'_, T> {
         }
         let speed = self.along(state.v);
         let square = speed * speed;
-        // False for NaN, too.
+        // A comparison with NaN is false, so that no nodes are kept where the speed is NaN.
         let moves = square > T::zero();
         if !moves {
             return;
@@ -93,7 +92,7 @@ impl<T: Real> Sheet<'_, T> {
         let half = T::from_f64(0.5);
         let (ahead, behind) = (places[0], places[BEYOND]);
         let centre = (ahead + behind) * half;
-        // False for NaN, too.
+        // A comparison with NaN is false, so that a centre that is NaN is not inside.
         let inside = centre.abs() <= hull::<T>(SIDE) * ((ahead - behind) * half).abs();
         if !inside {
             return None;
@@ -113,7 +112,8 @@ impl<T: Real> Sheet<'_, T> {
             found.noise += sets[0][node].abs() * quality.noise[node];
         }
         found.sum_up(&sets);
-        // The curve may come by elsewhere, at another passage, as far along this tangent.
+        // At another passage, the curve may lead by elsewhere at the same distance along this
+        // tangent.
         let off = self.chart.length(found.sum(0).offset);
         let is_here = off <= ((ahead - behind) * half).abs();
         if !is_here {

@@ -39,7 +39,7 @@ pub(super) struct Geometry<'a, T> {
 }
 
 impl<'a, T> Geometry<'a, T> {
-    /// That of `n` coordinates.
+    /// The geometry of `n` coordinates, out of vectors one after the other.
     fn of(vectors: &'a [T], n: usize) -> Self {
         let (offset, rest) = vectors.split_at(n);
         let (drift, rest) = rest.split_at(n);
@@ -57,7 +57,7 @@ impl<'a, T> Geometry<'a, T> {
 #[derive(Debug)]
 pub(super) struct Interpolated<'a, T> {
     n: usize,
-    /// By all nodes, and by one and two pairs fewer.
+    /// Interpolations by all nodes, and by one and two pairs of nodes fewer.
     sums: &'a mut [T],
     /// What is known of the nodes, one after the other, and their places in units of the
     /// spacing.
@@ -70,7 +70,7 @@ pub(super) struct Interpolated<'a, T> {
     pub(super) noise: T,
     /// How the first entry of the block changes from one node to the next.
     pub(super) slope: T,
-    /// By how much it is off, relative to what is interpolated, without and with round-off.
+    /// The error relative to what is interpolated; the score counts round-off, too.
     pub(super) error: T,
     pub(super) score: T,
     pub(super) spacing: T,
@@ -82,8 +82,8 @@ pub(super) struct Interpolated<'a, T> {
 struct Bend<'a, T> {
     /// How far it has bent away at the state that is asked for.
     whole: &'a mut [T],
-    /// The change of the distance from the accepted state, relative to what it is at the
-    /// state that is asked for, from one place of the line to the next.
+    /// By how much the distance from the accepted state changes from one place of the line to the
+    /// next, relative to the distance of the state that is asked for.
     share: T,
 }
 
@@ -206,14 +206,14 @@ impl<'a, T: Real> Interpolated<'a, T> {
         }
     }
 
-    /// Moves a position to where a node is to be looked for, by those before it and by the
-    /// state itself, which is on the sheet but for the error of a step.
+    /// Moves a position to where a node is expected, by extrapolation from the nodes before it and
+    /// from the state itself, which is on the sheet but for the error of a step.
     fn predict(&self, node: usize, place: T, here: T, q: &mut [T]) {
         let first = node.saturating_sub(PREDICTORS - 1);
         let mut places = [here; PREDICTORS];
         let count = node - first;
         places[..count].copy_from_slice(&self.places[first..node]);
-        // A node next to the state says the same.
+        // Next to a node, the state tells nothing new.
         let far = |other: &T| (*other - here).abs() > T::from_f64(0.3);
         let state = places[..count].iter().all(far);
         let known = |k: usize| k < count || k == count && state;
@@ -229,12 +229,13 @@ impl<'a, T: Real> Interpolated<'a, T> {
 }
 
 /// The order in which nodes are found, for a state ahead of the singular configuration:
-/// from the state outwards and across, so that those before predict the next.
+/// from the state outwards and across, so that earlier nodes predict the next.
 pub(super) const ORDER: [f64; NODES] = [1.0, 2.0, 3.0, -1.0, 4.0, -2.0, 5.0, -3.0, -4.0, -5.0];
-/// The one next to the singular configuration beyond it.
+/// In this order, the node next to the singular configuration on its other side.
 pub(super) const BEYOND: usize = 3;
 
-/// Lagrange's weights, at a place, of the places that are wanted; the others are left alone.
+/// Lagrange's weights, at a place, of those places that are wanted; the other weights are left
+/// alone.
 fn weigh<T: Real>(places: &[T], wanted: impl Fn(usize) -> bool, at: T, weights: &mut [T]) {
     for (i, own) in places.iter().enumerate().filter(|(i, _)| wanted(*i)) {
         let mut weight = T::one();
@@ -314,7 +315,7 @@ impl<T: Real> Sheet<'_, T> {
             found.predict(node, place, here, point.q);
             let shift = direction.shifted(distance);
             self.project_from(moved, (t, point.q), like, shift, workspace)?;
-            // False for NaN, too.
+            // A comparison with NaN is false, so that a node with a pivot that is NaN is not clear.
             let clear = self.frame.smallest() >= clearance::<T>() * found.spacing;
             if !clear {
                 return Err(Obstacle::Unresolved);
@@ -361,7 +362,7 @@ impl<T: Real> Sheet<'_, T> {
         for (along, column) in along.iter().zip(self.chart.tangents()) {
             add_scaled(bend.whole, -*along, column);
         }
-        // False for NaN, too: where the state is the accepted one.
+        // False where the state is the accepted one: the share is then NaN, a quotient of zeros.
         let known = bend.share.abs() < T::one();
         if !known {
             bend.whole.fill(T::zero());

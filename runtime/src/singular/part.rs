@@ -5,8 +5,8 @@
 //!      put back, and its [`Equations`].
 //!
 //! The constraint set is the product of those of its connected components, and so are its
-//! sheets: where one of them is nearly singular, the others are none the wiser. Coordinates
-//! keep their order within a part; where there is but one, it is everything.
+//! sheets: where one of them is nearly singular, the others need not be. Coordinates keep their
+//! order within a part; where there is but one, it is everything.
 
 use crate::equations::{At, Constraints, Equations};
 use crate::linalg::{Workspace, add_scaled, dot, norm};
@@ -16,24 +16,24 @@ use core::ops::Range;
 /// The coordinates and rows of one sheet.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Part {
-    /// None where there is but one.
+    /// None where the mechanism has but one part.
     component: Option<&'static ConnectedComponent>,
     /// How many coordinates and rows there are.
     pub(super) n: usize,
     pub(super) r: usize,
-    /// How many there are of the whole mechanism.
+    /// How many coordinates and rows the whole mechanism has.
     whole_n: usize,
     whole_r: usize,
 }
 
-/// A part, and where what belongs to it is.
+/// A part, and the place of its entries in vectors in the order of the parts.
 pub(super) struct Place {
     pub(super) part: Part,
     /// Its place among the parts.
     pub(super) index: usize,
-    /// Its coordinates, where these are in the order of the parts.
+    /// Its coordinates among those of all parts.
     pub(super) coordinates: Range<usize>,
-    /// Its tangent vectors among those of all.
+    /// The entries of its tangent vectors among those of all parts.
     pub(super) tangents: Range<usize>,
 }
 
@@ -73,7 +73,7 @@ impl Part {
         }
     }
 
-    /// One of its rows, likewise.
+    /// One of its rows, by its place in the part.
     pub(super) fn row(&self, place: usize) -> usize {
         match self.component {
             None => place,
@@ -117,7 +117,7 @@ impl Part {
         }
     }
 
-    /// A state of it.
+    /// The state of the part in a state of the whole mechanism.
     pub(super) fn state<'b, T: Real>(
         &self,
         all: At<'_, T>,
@@ -129,7 +129,8 @@ impl Part {
         At { t: all.t, q, v }
     }
 
-    /// The Jacobian of its rows by its coordinates, of one of all rows, both column by column.
+    /// The Jacobian of its rows by its coordinates, taken out of the Jacobian of all rows, both
+    /// column by column.
     pub(super) fn take_jacobian<T: Copy>(&self, all: &[T], own: &mut [T]) {
         for (place, column) in own.chunks_exact_mut(self.r.max(1)).enumerate() {
             let entries = &all[self.coordinate(place) * self.whole_r..];
@@ -206,7 +207,7 @@ pub(super) struct Frozen<'b, T> {
 }
 
 impl<'b, T: Real> Frozen<'b, T> {
-    /// Those of a state.
+    /// The coordinates and velocities of a state.
     pub(super) fn new(state: At<'_, T>, workspace: &Workspace<'b, T>) -> Self {
         let n = state.q.len();
         let (q, v) = workspace.any(2 * n).split_at_mut(n);

@@ -21,7 +21,7 @@ use crate::crossing::zero;
 use crate::linalg::{Eliminated, Frame, Workspace};
 use core::convert::Infallible;
 
-/// Blocks of near-dependent rows that an elimination takes, and what follows from it.
+/// Room that an elimination and all that follows from it take, in blocks of near-dependent rows.
 const BLOCKS: usize = 6;
 /// Parts of a step that are sampled, each no longer than the range of the coordinates, so that
 /// not several singular configurations are passed between two samples.
@@ -35,8 +35,8 @@ const MOMENT: f64 = 1e-4;
 const DIP: f64 = 0.25;
 /// Halvings of the interval in which the determinant turns back.
 const DEEPENINGS: usize = 26;
-/// Halvings after which it is given up where the determinant, at twice the rate at which it
-/// falls, would still not reach zero.
+/// Halvings after which the search is given up if the determinant would not reach zero even at
+/// twice the rate at which it falls.
 const DEEP: usize = 4;
 
 /// The constraints at a time of a step, eliminated in one order for all times.
@@ -103,7 +103,7 @@ impl<T: Real> Sheet<'_, T> {
         found.open = last.filter(|last| *last < end);
     }
 
-    /// Searches between samples, the first of them after the last one of before.
+    /// Searches between consecutive samples; `before` is the last of the samples of earlier parts.
     fn search_among(
         &mut self,
         step: &Searched<'_, T>,
@@ -142,13 +142,13 @@ impl<T: Real> Sheet<'_, T> {
         if self.constraints() <= SINGLE && !passes && !may_dip {
             return;
         }
-        // At the nearer one all rows come last that may turn against others in between, while
-        // two that do so on the way from one that is far might be missed.
+        // An elimination at the position nearer to a singular configuration puts all rows last that
+        // may turn against others in between; one at the farther position might miss two of them.
         let mut orders = [(from, to), (to, from)];
         if to.sine < from.sine {
             orders.swap(0, 1);
         }
-        // What is eliminated at the one may have lost a pivot at the other.
+        // In the order of elimination of the one, a pivot may be lost at the other.
         for ends in orders {
             let searched =
                 workspace.scope(|inner| self.search_in_order(step, ends, rates, found, inner));
@@ -158,8 +158,8 @@ impl<T: Real> Sheet<'_, T> {
         }
     }
 
-    /// The same in the order of elimination of one position, which is compared with another;
-    /// `None` where that can't be eliminated so.
+    /// Searches between two positions in the order of elimination of the first; `None` where the
+    /// other can't be eliminated in it.
     fn search_in_order(
         &mut self,
         step: &Searched<'_, T>,
@@ -268,7 +268,7 @@ impl<T: Real> Sheet<'_, T> {
             _ if halve => Some((from.t + to.t) * half),
             _ => Some(estimate_multiple(from, to, changes, at_once)),
         };
-        // An elimination and those within it need room for a few blocks.
+        // An elimination in the middle, and those of both halves, need room for a few blocks.
         let size = search.like.block().size();
         let room = BLOCKS * size * size + self.chart.n();
         let middle = middle.filter(|_| workspace.has_room(room));
@@ -285,7 +285,7 @@ impl<T: Real> Sheet<'_, T> {
         });
     }
 
-    /// A passage of so many loops at once.
+    /// Records a passage of so many loops at once.
     fn record(
         &mut self,
         search: &Search<'_, T>,
@@ -316,9 +316,9 @@ impl<T: Real> Sheet<'_, T> {
         });
     }
 
-    /// An elimination between two others, of equal signs, that is beyond a singular configuration,
-    /// if there is one: by the cubic polynomial through the determinants and their rates,
-    /// and then by bisection.
+    /// An elimination beyond a singular configuration, between two others of equal signs, if there
+    /// is one. It is sought by the cubic polynomial through the determinants and their rates, and
+    /// then by bisection.
     fn find_double<'b>(
         &mut self,
         search: &Search<'_, T>,
@@ -351,7 +351,7 @@ impl<T: Real> Sheet<'_, T> {
                 return self.is_told(search, &middle, workspace).then_some(middle);
             }
             let rate = sign * self.rate(search, (t, middle.determinant), workspace)?;
-            // Towards where it falls.
+            // The search goes on in the half into which the determinant falls.
             if rate > T::zero() {
                 b = x;
             } else {
@@ -389,7 +389,7 @@ impl<T: Real> Sheet<'_, T> {
         to: &Elimination<'_, T>,
         workspace: &Workspace<'_, T>,
     ) -> T {
-        // In the singular configuration itself, where it can't be told, it is zero.
+        // The determinant can't be told in the singular configuration itself: there it is zero.
         let mut determinant = |t| {
             let determinant = self.determinant_at(search, t, workspace);
             Ok::<_, Infallible>(determinant.unwrap_or_default())
@@ -400,9 +400,9 @@ impl<T: Real> Sheet<'_, T> {
     }
 }
 
-/// A time close to where so many loops become singular, if they do so at once: there the
-/// determinant vanishes like that power of the time. It is put a little away from the
-/// nearer end, so that the shorter part holds what is sought.
+/// A time close to where so many loops become singular, if they do so at once: the determinant then
+/// vanishes like that power of the time. It is put a little farther from the nearer end, so that
+/// the shorter part holds the zero.
 fn estimate_multiple<T: Real>(
     from: &Elimination<'_, T>,
     to: &Elimination<'_, T>,

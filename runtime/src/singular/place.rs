@@ -18,16 +18,16 @@ use crate::equations::At;
 use crate::linalg::{Eliminated, Workspace, add_scaled};
 use crate::tolerance::{excusable, hull, resolvable, resolved, spacing, window};
 
-/// How much larger than the round-off of one node, magnified by the weights, the
-/// difference of two interpolations may be for that reason.
+/// The difference of two interpolations may, by round-off alone, be this many times the round-off
+/// of one node, magnified by the weights.
 const NOISE: f64 = 48.0;
 /// Spacings that are tried.
 const LEVELS: usize = 12;
-/// A move onto the sheet in which signs change shows that it is another sheet if it is longer
-/// than this many errors of an interpolation: those that are accepted, a step may be off by.
+/// A move onto the sheet in which signs change came from another sheet if it is longer than this
+/// many errors: of the interpolation, or those that are accepted, by which a step may be off.
 const STRAYS: f64 = 10.0;
-/// By how much worse an interpolation may be than the best of all spacings, so that no others
-/// are tried.
+/// No other spacings are tried if an interpolation is worse than the best of all spacings was by no
+/// more than this factor.
 const NEARLY: f64 = 4.0;
 
 /// Interpolations: the best one, and room for others.
@@ -37,9 +37,9 @@ const BEST: usize = 0;
 /// Whether a state is placed between nodes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Serves {
-    /// Between the best ones.
+    /// Between the best nodes that were found.
     Well,
-    /// It is better placed without any.
+    /// It is better placed without nodes.
     Not(Placement),
 }
 
@@ -63,7 +63,7 @@ pub(crate) enum Placement {
 }
 
 impl Placement {
-    /// That on a product of two sheets.
+    /// The placement on a product of two sheets.
     pub(super) fn and(self, other: Self) -> Self {
         match (self, other) {
             (
@@ -167,7 +167,7 @@ impl<T: Real> Sheet<'_, T> {
         })
     }
 
-    /// Finds nodes for a state, or that it is better placed without any.
+    /// Finds nodes for a state, or a placement without nodes that is better.
     #[inline(never)]
     fn find_nodes<'b>(
         &mut self,
@@ -200,7 +200,8 @@ impl<T: Real> Sheet<'_, T> {
         }
     }
 
-    /// Tries nodes along the best direction; if the sheet moves, by this parameter.
+    /// Tries nodes along the best direction. If the sheet moves, `parameter` says what moves it
+    /// along the line.
     #[inline(never)]
     fn try_nodes(
         &mut self,
@@ -223,7 +224,7 @@ impl<T: Real> Sheet<'_, T> {
         })
     }
 
-    /// The same along a direction.
+    /// Tries nodes along a direction.
     #[inline(never)]
     fn try_direction(
         &mut self,
@@ -248,7 +249,8 @@ impl<T: Real> Sheet<'_, T> {
         if best.error > self.chart.accepted.max(excused) {
             return Err(Obstacle::Unresolved);
         }
-        // Where neither is as good as wanted, the better one.
+        // If neither the interpolation nor the equations at the state are as good as wanted, the
+        // better of the two.
         let sine = like.smallest();
         if best.error > self.chart.accepted && best.error * sine * sine > T::EPSILON {
             return Ok(Serves::Not(Placement::Regular));
@@ -330,8 +332,8 @@ impl<T: Real> Sheet<'_, T> {
         }
     }
 
-    /// Whether an interpolation is as good as none, or nearly as good as the last, which was
-    /// the best of all spacings, and as good as a step needs it.
+    /// Whether no better interpolation need be sought: its error counts as zero, or it is as good
+    /// as a step needs it and nearly as good as the last one, which was the best of all spacings.
     pub(super) fn serves(&self, found: &Interpolated<'_, T>) -> bool {
         let nearly = self.nodes.quality.score * T::from_f64(NEARLY);
         let enough = found.error <= self.chart.accepted;
@@ -386,7 +388,7 @@ impl<T: Real> Sheet<'_, T> {
         let [last, before] = differences;
         let ratio = last / before;
         let least = T::from_f64(1e-3);
-        // NaN where both are zero.
+        // The ratio is NaN where both are zero, and comparisons with NaN are false.
         found.error = if ratio < T::one() {
             last * ratio.max(least)
         } else {

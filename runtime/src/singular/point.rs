@@ -15,7 +15,7 @@ use nalgebra::{SMatrix, SVector};
 #[derive(Clone, Debug)]
 pub(crate) struct Point<T, const N: usize> {
     pub(crate) state: State<T, N>,
-    /// The tangent space: `D* D̃ = 1`, those of each part one after the other.
+    /// The tangent space: `D* D̃ = 1`, the vectors of each part one after the other.
     pub(crate) tangent: SMatrix<T, N, N>,
     /// The velocity of the sheet where the coordinates of the chart rest.
     pub(crate) drift: SVector<T, N>,
@@ -69,7 +69,7 @@ impl<T: Real, const N: usize> Point<T, N> {
         smallest_sine(&self.met)
     }
 
-    /// The same over slices.
+    /// The point over slices, to be changed.
     pub(super) fn slices(&mut self) -> PointSlices<'_, T> {
         PointSlices {
             t: &mut self.state.t,

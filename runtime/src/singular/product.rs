@@ -25,19 +25,19 @@ pub(crate) struct Factor<T> {
     pub(crate) gap: bool,
 }
 
-/// Where what belongs to a factor begins.
+/// Where the entries of a factor begin in lists of all factors.
 #[derive(Clone, Copy, Default)]
 pub(super) struct Offsets {
     pub(super) coordinates: usize,
     pub(super) rows: usize,
-    /// Among the independent rows.
+    /// The place of its first row among the independent rows.
     pub(super) chosen: usize,
     pub(super) tangents: usize,
     pub(super) squares: usize,
 }
 
 impl Offsets {
-    /// Those of the next factor.
+    /// Where the entries of the next factor begin.
     pub(super) fn after(&self, part: Part, freedoms: usize) -> Self {
         Self {
             coordinates: self.coordinates + part.n,
@@ -121,7 +121,7 @@ impl<'a, T: Real> Product<'a, T> {
         sum.sqrt()
     }
 
-    /// Makes columns of all coordinates of those of each factor.
+    /// Fills columns of all coordinates with the columns of each factor, and with zeros.
     pub(crate) fn spread(&self, own: &[T], columns: &mut [T]) {
         let mut all = columns.chunks_exact_mut(self.q.len());
         for (place, _) in self.factors() {

@@ -13,20 +13,22 @@ use crate::Real;
 use crate::linalg::{Workspace, dot, independent_columns, lift_rows};
 use crate::tolerance::{regular, window};
 
-/// How many times the volume that the chosen rows span that of others may be within a step, at
-/// whose beginning none was larger.
+/// Within a step, the volume that other rows span may be this many times that of the chosen rows;
+/// at its beginning none was larger.
 const MUCH_LARGER: f64 = 4.0;
 
-/// How many times as far as passages that happen at once all rows are looked at for whether they
-/// become dependent, and the part of a step that this is at most.
+/// To tell whether all rows become dependent, they are looked at before and after, at a distance of
+/// this many times the time within which passages happen at once, and of at most this part of a
+/// step.
 const KNOWN: f64 = 32.0;
 const MOST_AWAY: f64 = 0.125;
-/// The part of their volume there that is left where they do.
+/// All rows count as dependent where less than this part of the volume is left that they span
+/// there.
 const LEFT: f64 = 0.2;
 
 impl<T: Real> Sheet<'_, T> {
-    /// The rank of all rows, as many of which count as there are independent ones at regular
-    /// states; `None` where the chosen ones are all there are.
+    /// The rank of all rows, at most their rank at regular states; `None` where the chosen ones are
+    /// all there are.
     pub(super) fn rank_of_all_rows(&self, workspace: &Workspace<'_, T>) -> Option<usize> {
         if !self.are_some_left(workspace) {
             return None;
@@ -84,8 +86,8 @@ impl<T: Real> Sheet<'_, T> {
         self.constraints() < r && workspace.has_room(n * r)
     }
 
-    /// How many of some rows are independent, of as many as were chosen, and the volume that they
-    /// span.
+    /// How many of some rows are independent, at most as many as were chosen, and the volume that
+    /// these span.
     fn span(
         &self,
         rows: impl ExactSizeIterator<Item = usize>,
@@ -98,7 +100,7 @@ impl<T: Real> Sheet<'_, T> {
         lift_rows(chart.metric, jacobian, chart.row_scale, rows, vectors);
         let chosen = workspace.indices(self.constraints());
         let count = independent_columns(vectors, n, &|_| false, least, chosen);
-        // What is left of each is what it is off those before.
+        // What is left of each row is its distance from the span of those before it.
         let left = |place: &usize| {
             let vector = &vectors[place * n..][..n];
             dot(vector, vector).sqrt()

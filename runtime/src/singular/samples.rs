@@ -12,7 +12,7 @@ use crate::tolerance::{regular, resolved, window};
 
 /// How far from a singular configuration a sample is taken instead, as parts of a step.
 const BESIDE: [f64; 3] = [1e-6, 1e-4, 1e-2];
-/// How many times as far as it is off the constraints the inside of a step may be off the motion.
+/// The inside of a step may be this many times as far off the motion as it is off the constraints.
 const UNKNOWN: f64 = 8.0;
 /// Samples of a step, equally far apart, its start among them.
 pub(super) const SAMPLES: usize = VALUES;
@@ -31,7 +31,7 @@ pub(super) struct Sample<T> {
 pub(super) type Sampled<T> = (Option<Sample<T>>, Option<T>);
 
 impl<T: Real> Sheet<'_, T> {
-    /// The last sample of the steps before that has a sign, if this one starts where none can be
+    /// The last sample of earlier steps that has a sign, if this step starts where no sign can be
     /// told.
     pub(super) fn open_sample(
         &mut self,
@@ -117,8 +117,8 @@ impl<T: Real> Sheet<'_, T> {
     }
 
     /// Whether the sign of a determinant next to a singular configuration, at a position whose
-    /// frame is at hand, is more than what follows from how far the inside of a step is off the
-    /// constraints; the position is used up.
+    /// frame is at hand, is certain although the inside of a step is off the constraints; the
+    /// position is used up.
     pub(super) fn tells(&mut self, sine: T, determinant: T, (t, q): (T, &mut [T])) -> bool {
         self.correct(q);
         match self.eliminate_widely(t, q) {
@@ -131,8 +131,8 @@ impl<T: Real> Sheet<'_, T> {
     }
 }
 
-/// How fast the determinant changes (1/s) at samples between two times; `None` where one is
-/// missing or elsewhere, or several rows may turn.
+/// How fast the determinant changes (1/s) at samples between two times; `None` where a sample is
+/// missing or was taken beside its place, or where too many rows may turn.
 fn rates<T: Real>(sampled: &[Option<Sample<T>>; SAMPLES], between: (T, T)) -> [Option<T>; SAMPLES] {
     let [Some(a), Some(b), Some(c), Some(d), Some(e)] = sampled else {
         return [None; SAMPLES];
@@ -140,7 +140,8 @@ fn rates<T: Real>(sampled: &[Option<Sample<T>>; SAMPLES], between: (T, T)) -> [O
     let all = [a, b, c, d, e];
     let mut in_place = all.iter().enumerate();
     let in_place = in_place.all(|(k, sample)| sample.t == place(between, k));
-    // A polynomial of fourth degree is no picture of the determinant of more rows.
+    // A polynomial of fourth degree does not follow the determinant of more than four rows that
+    // turn.
     if !in_place || all.iter().any(|sample| sample.rows >= SAMPLES) {
         return [None; SAMPLES];
     }

@@ -4,7 +4,7 @@
 //! Out: [`Session`]: the chart of the sheet, where there is need of one, and how near the
 //!      constraints came to losing rank.
 //!
-//! Trial states change nothing here but what is forgotten when the trial is.
+//! Trial states change nothing here but what is forgotten together with the trial.
 
 use super::chart::Chart;
 use super::point::Met;

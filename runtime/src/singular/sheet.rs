@@ -48,7 +48,7 @@ pub(super) struct PointView<'a, T> {
 }
 
 impl<'a, T: Real> PointView<'a, T> {
-    /// Room for one on the sheet of a chart.
+    /// Room for a state on the sheet of a chart.
     pub(super) fn new(chart: &ChartView<'_, T>, workspace: &Workspace<'a, T>) -> Self {
         let n = chart.n();
         Self {
@@ -96,7 +96,7 @@ impl<T: Real> Shift<'_, T> {
     /// Zero.
     pub(super) const NONE: Self = Self(None);
 
-    /// By how much rows are short of it, in `room` if it is not zero.
+    /// By how much rows are short of the shift, in `room` if that is not zero.
     fn opposite<'b>(
         self,
         residual: &'b [T],
@@ -198,7 +198,7 @@ impl<'a, T: Real> Sheet<'a, T> {
         .map_err(|_| Obstacle::NotRegular)
     }
 
-    /// The same with all rows last that could turn within a step.
+    /// Eliminates the constraints at a position, with all rows last that could turn within a step.
     pub(super) fn eliminate_widely(&mut self, t: T, q: &[T]) -> Result<(), Obstacle> {
         self.load(t, q);
         let constraints = self.constraints();
@@ -230,7 +230,7 @@ impl<'a, T: Real> Sheet<'a, T> {
             .set_rows(jacobian, chart.dual, chart.column_scale);
     }
 
-    /// Takes those that are not zero.
+    /// Takes the entries of the constraint rows and the duals that are not zero.
     fn load_sparse(&mut self) {
         let chart = &self.chart;
         let jacobian = self.equations.constraints().jacobian;
@@ -352,7 +352,8 @@ impl<'a, T: Real> Sheet<'a, T> {
         self.project_from_here(t, q, like, shift)
     }
 
-    /// The same from one position to the sheet beside it, by way of a guess.
+    /// Moves a guess `q` onto the sheet as `project` does, and takes back what then leads there
+    /// from a position beside it along rows that restrict only velocities.
     pub(super) fn project_from(
         &mut self,
         from: &[T],
@@ -369,8 +370,8 @@ impl<'a, T: Real> Sheet<'a, T> {
         self.project(t, q, Some(like), shift)
     }
 
-    /// Takes back what led from a position to another one, whose frame is at hand, along what
-    /// only velocities are restricted by: no equation says where the position is there.
+    /// Takes back what led from a position to another, whose frame is at hand, along rows that
+    /// restrict only velocities: no equation says where the position is along them.
     fn straighten(&mut self, from: &[T], q: &mut [T], workspace: &Workspace<'_, T>) {
         workspace.scope(|workspace| {
             let moved = workspace.any(q.len());

@@ -18,13 +18,13 @@ use crate::{DynamicsError, Real};
 
 /// A sheet is selected if the state is nearer to it than to the other by this factor.
 const NEARER: f64 = 4.0;
-/// A velocity that is not so much nearer to one sheet than to the other is off both.
+/// A velocity that is not nearer to one sheet than to the other by this factor is off both.
 const CLEARLY_NEARER: f64 = 1e3;
 /// Eigenvalues of `H` below this part of the largest are zero.
 const FLAT: f64 = 0.1;
 
-/// Fills `free` with directions that are left when `remove` takes away what is decided,
-/// lowered.
+/// Fills `free` with an orthonormal basis of the directions that are left when `remove` takes away
+/// the others, lowered.
 fn span_free<T: Real>(
     factor: &[T],
     free: &mut [T],
@@ -225,7 +225,7 @@ fn distances<T: Real>(
 }
 
 /// Finds the normals of two sheets from the second derivatives of a combination of rows, among
-/// the directions that the others leave free; `false` where these are not of that kind.
+/// the directions that the others leave free; `false` where they do not show two sheets that cross.
 fn find_normals<T: Real>(
     solver: &mut dyn Constrained<T>,
     state: At<'_, T>,
@@ -254,7 +254,7 @@ fn find_normals<T: Real>(
     let others = (0..count).filter(|k| *k != up && *k != down);
     let curved = others.fold(T::zero(), |most: T, k| most.max(value(k).abs()));
     let least = flat * flat / most;
-    // False for NaN, too.
+    // Comparisons with NaN are false: where all values are zero, there are no two sheets.
     let two = value(up) > least && -value(down) > least && curved <= flat;
     if !two {
         return false;

@@ -177,7 +177,7 @@ impl<T: Real> Sheets<'_, T> {
         workspace: &Workspace<'_, T>,
     ) -> (Option<usize>, T) {
         let (mut count, mut part) = (Some(0), T::one());
-        // Nothing is refused here.
+        // No part returns an error here.
         let _ = self.on_each(start, workspace, &mut |place, sheet, workspace| {
             let ends = [start, end].map(|state| place.part.state(state, workspace));
             let (own, until) = sheet.crossed((ends[0], ends[1]), seeks, workspace);
@@ -213,7 +213,7 @@ impl<T: Real> Sheets<'_, T> {
         workspace: &Workspace<'_, T>,
     ) -> bool {
         let mut poorly = false;
-        // Nothing is refused here.
+        // No part returns an error here.
         let _ = self.on_each(start, workspace, &mut |place, sheet, workspace| {
             let ends = [start, end].map(|state| place.part.state(state, workspace));
             poorly |= sheet.chose_poorly_between((ends[0], ends[1]), workspace);

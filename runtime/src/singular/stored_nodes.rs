@@ -24,7 +24,7 @@ pub(crate) struct Nodes<T, const N: usize> {
 /// How well the nodes of a part serve.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Quality<T> {
-    /// How the round-off of each is magnified.
+    /// How the round-off of each node is magnified.
     pub(super) noise: [T; NODES],
     /// Their spacing, as a change of the sine; that of the last interpolation, also where its
     /// nodes are not kept.

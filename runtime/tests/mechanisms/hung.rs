@@ -9,7 +9,7 @@ use bricard_runtime::{Energy, Mechanism, Position, State, Structure, Terms};
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Hung;
 
-/// The same motion in `θ` and `ψ`, without constraints.
+/// The motion of [`Hung`] in `θ` and `ψ`, without constraints.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct HungReduced;
 

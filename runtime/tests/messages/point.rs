@@ -214,7 +214,7 @@ pub fn circle(state: &State<f64, 2>) -> Jet {
     )
 }
 
-/// The same, written as a square that is zero.
+/// A circle of radius one about the origin, written as a square that is zero.
 pub fn squared(state: &State<f64, 2>) -> Jet {
     let Jet(u, slope, _, _) = circle(state);
     let second = slope * slope.transpose() * 2.0 + SMatrix::identity() * (4.0 * u);

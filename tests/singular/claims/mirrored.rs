@@ -25,7 +25,7 @@ fn settings() -> impl Iterator<Item = Options<f64>> {
     fixed.into_iter().chain(adaptive)
 }
 
-/// The same in the null-space form and with all coordinates.
+/// All settings, in the null-space form and with all coordinates.
 fn forms() -> impl Iterator<Item = Options<f64>> {
     settings().flat_map(|reduced| {
         let mut full = reduced;

@@ -32,8 +32,8 @@ fn any(random: &mut Random, trial: Trial, reduced: &'static str) -> Trial {
     }
 }
 
-/// The same run with masses that are often very unlike a kilogram. What is light is whipped by
-/// what is heavy, which neither steps of equal length nor loose tolerances follow.
+/// A run with masses that are often very unlike a kilogram. What is light is whipped by what is
+/// heavy, which neither steps of equal length nor loose tolerances follow.
 fn unlike(random: &mut Random, trial: Trial, masses: &[&'static str]) -> Trial {
     let method = random.of_these(&[Method::Dop853, Method::Radau9]);
     let tolerance = random.decade(TOLERANCES.0, 1e-7);

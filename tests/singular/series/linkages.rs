@@ -160,7 +160,7 @@ pub fn driven_stops(random: &mut Random, index: usize) -> Trial {
     }
 }
 
-/// The same until it stops.
+/// A driven crank until it stops, exactly at its dead centre or beside it.
 pub fn driven_to_stop(random: &mut Random, index: usize) -> Trial {
     driven_stops(random, index).until(1.0)
 }

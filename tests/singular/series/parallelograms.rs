@@ -128,7 +128,7 @@ pub fn cart_minute(random: &mut Random, _: usize) -> Trial {
     invariants(cart(random).until(MINUTE))
 }
 
-/// The same for so short a time that it can be compared.
+/// Two parallelograms on a cart, for so short a time that the run can be compared.
 pub fn cart_short(random: &mut Random, _: usize) -> Trial {
     cart(random).until(1.5)
 }
@@ -153,7 +153,7 @@ pub fn mast(random: &mut Random, index: usize) -> Trial {
     Trial::short("mast", "mast_reduced", set).until(1.5)
 }
 
-/// The same for a minute.
+/// A parallelogram on a carriage with two pendulums, for a minute.
 pub fn mast_minute(random: &mut Random, index: usize) -> Trial {
     invariants(mast(random, index).until(MINUTE))
 }

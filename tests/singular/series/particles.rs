@@ -38,7 +38,7 @@ pub fn curves_named(_: &mut Random, index: usize) -> Trial {
     Trial { tolerance, ..trial }
 }
 
-/// The same, so near to touching, or to missing each other, that an error will do.
+/// Two parabolas so near to touching, or to missing each other, that an error will do.
 pub fn near(_: &mut Random, index: usize) -> Trial {
     let decade = 10f64.powi(-1 - (index / 3 % 9) as i32);
     let sign = if index < 27 { 1.0 } else { -1.0 };

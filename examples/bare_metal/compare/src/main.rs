@@ -90,7 +90,7 @@ fn compare<T: Real>(report: &Report) -> Result<(), Box<dyn Error>> {
     for (tick, there) in &report.states {
         for (there, here) in there.iter().zip(&here[tick]) {
             let distance = (there - here).abs();
-            // False for NaN, too.
+            // A comparison with NaN is false, so that a distance that is NaN does not agree.
             let agrees = distance <= AGREEMENT;
             if !agrees {
                 return Err(format!("tick {tick}: {there} there and {here} here").into());

@@ -19,7 +19,7 @@ use cortex_m_semihosting::{heprintln, hprintln};
 struct Work {
     /// Ticks, evaluations and instructions away from singular positions.
     regular: [u64; 3],
-    /// The same next to them.
+    /// Ticks, evaluations and instructions next to singular positions.
     beside: [u64; 3],
     /// The most evaluations of a tick.
     most_evaluations: u32,
