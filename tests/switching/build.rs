@@ -20,8 +20,11 @@ fn main() -> Result<(), Box<dyn Error>> {
     }
     for name in [
         "contact",
+        "drawn",
         "friction",
         "frozen",
+        "jointed",
+        "jointed_reduced",
         "knotted",
         "looped",
         "parallelogram",

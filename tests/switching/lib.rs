@@ -1,8 +1,11 @@
 //! Mechanisms whose forces jump.
 
 include!(concat!(env!("OUT_DIR"), "/contact.rs"));
+include!(concat!(env!("OUT_DIR"), "/drawn.rs"));
 include!(concat!(env!("OUT_DIR"), "/friction.rs"));
 include!(concat!(env!("OUT_DIR"), "/frozen.rs"));
+include!(concat!(env!("OUT_DIR"), "/jointed.rs"));
+include!(concat!(env!("OUT_DIR"), "/jointed_reduced.rs"));
 include!(concat!(env!("OUT_DIR"), "/knotted.rs"));
 include!(concat!(env!("OUT_DIR"), "/looped.rs"));
 include!(concat!(env!("OUT_DIR"), "/measured.rs"));

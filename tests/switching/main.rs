@@ -6,6 +6,7 @@ use bricard as _;
 mod changes;
 mod events;
 mod jumps;
+mod loops;
 mod measured;
 mod points;
 mod tables;

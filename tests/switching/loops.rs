@@ -1,0 +1,66 @@
+//! Forces that jump in closed loops: what holds them, and what draws them to dead centres.
+
+use bricard_runtime::{Options, Summary, Whole, assemble, simulate};
+use bricard_switching::drawn::Drawn;
+use bricard_switching::jointed::Jointed;
+use bricard_switching::jointed_reduced::JointedReduced;
+use bricard_testkit::Random;
+use core::f64::consts::FRAC_PI_2;
+
+fn run<const N: usize, const R: usize>(
+    mechanism: &dyn Whole<f64, N, R>,
+    (until, tolerance): (f64, f64),
+) -> Summary<f64, N> {
+    let start = assemble(mechanism, &mechanism.start(), 0.0).expect("it can be assembled");
+    let options = Options::dop853(until, tolerance);
+    simulate(mechanism, &start, &options, &mut []).unwrap_or_else(|failure| panic!("{failure}"))
+}
+
+/// Their functions all vanish with the only velocity there is.
+#[test]
+fn friction_in_every_joint_of_a_loop_brings_it_to_rest() {
+    let mut random = Random::seeded(0x0F41);
+    for round in 0..40 {
+        let mut loops = Jointed::<f64>::default();
+        let parameters = &mut loops.parameters;
+        // A rod as long as the crank has dead centres where both could fold.
+        parameters.r = [1.0, 1.2, 1.5][round % 3];
+        parameters.f = [1.0, 2.0, 5.0, 10.0][round % 4];
+        parameters.g = f64::from(u8::from(round % 2 == 0));
+        (parameters.q0, parameters.w0) = (random.within(1.2), random.within(4.0));
+        let tolerance = [1e-6, 1e-8, 1e-10][round % 3];
+        let name = format!("{round}: {:?}", loops.parameters);
+        let end = run::<3, 2>(&loops, (6.0, tolerance)).end;
+        if loops.parameters.f >= 5.0 || loops.parameters.g == 0.0 {
+            assert!(end.v.amax() < 1e-7, "{name}: {}", end.v);
+        }
+        if loops.parameters.r > 1.0 {
+            let mut reduced = JointedReduced::<f64>::default();
+            let parameters = &mut reduced.parameters;
+            (parameters.r, parameters.f) = (loops.parameters.r, loops.parameters.f);
+            parameters.g = loops.parameters.g;
+            (parameters.q0, parameters.w0) = (loops.parameters.q0, loops.parameters.w0);
+            let exact = run::<1, 0>(&reduced, (6.0, 1e-11)).end.q[0];
+            let off = end.q[0] - exact;
+            assert!(off.abs() < 1e4 * tolerance, "{name}: off by {off:e}");
+        }
+    }
+}
+
+/// The energy that a sliding motion loses is that of the mean force, not of either side's.
+#[test]
+fn a_motion_that_slides_to_a_dead_centre_gets_there() {
+    // It reaches the line at this time and angle, and follows it: the closed form of the latter.
+    let begin = run::<3, 2>(&Drawn::default(), (0.5, 1e-12)).end;
+    for (until, tolerance) in [(3.0, 1e-6), (6.0, 1e-9), (20.0, 1e-8)] {
+        let end = run::<3, 2>(&Drawn::default(), (until, tolerance)).end;
+        let left = (FRAC_PI_2 - begin.q[0]) * (begin.t - until).exp();
+        let off = [
+            end.q[0] - FRAC_PI_2 + left,
+            end.v[0] - left,
+            end.q[1] + end.q[0],
+        ];
+        let most = 1e3 * tolerance;
+        assert!(off.iter().all(|off| off.abs() < most), "{until}: {off:?}");
+    }
+}
