@@ -292,35 +292,44 @@ impl<'a> Numbers<'a> {
         let all: Vec<usize> = (0..place.q.len()).collect();
         let (values, slopes) = self.values_and_jacobian(rows, &all, place);
         let slopes_at = |at: &Place| self.values_and_jacobian(rows, &all, at).1;
-        let sizes = self.sizes(&slopes, &place.q, &slopes_at);
-        let mut errors = values.iter().zip(sizes);
-        let holds = errors.all(|(value, size)| value.abs() <= HOLDS * size.max(HOLDS));
+        let is_small = |value: f64, size: f64| value.abs() <= HOLDS * size.max(HOLDS);
+        let holds = self.are_small(&values, &is_small, (&slopes, &place.q), &slopes_at);
         (values, holds)
     }
 
-    /// How large the terms of equations are that are linearised so at a place, there or nearby:
-    /// where the derivatives of an equation nearly vanish, it is as accurate as elsewhere.
-    pub fn sizes(
+    /// Whether the errors of equations that are linearised so at a place are small beside their
+    /// terms, there or nearby: where the derivatives of an equation nearly vanish, it is as
+    /// accurate as elsewhere.
+    pub fn are_small(
         &self,
-        slopes: &[Vec<f64>],
-        unknowns: &[f64],
+        errors: &[f64],
+        is_small: &dyn Fn(f64, f64) -> bool,
+        (slopes, unknowns): (&[Vec<f64>], &[f64]),
         slopes_at: &dyn Fn(&Place) -> Vec<Vec<f64>>,
-    ) -> Vec<f64> {
+    ) -> bool {
         let size = |row: &Vec<f64>| -> f64 {
             let terms = row.iter().zip(unknowns);
             terms.map(|(a, x)| a.abs() * x.abs().max(1.0)).sum()
         };
+        let all = |sizes: &[f64]| {
+            errors
+                .iter()
+                .zip(sizes)
+                .all(|(e, size)| is_small(*e, *size))
+        };
         let mut sizes: Vec<f64> = slopes.iter().map(size).collect();
+        if all(&sizes) {
+            return true;
+        }
         for seed in 1..=2 {
             let nearby = slopes_at(&self.random(seed));
-            for (most, row) in sizes.iter_mut().zip(&nearby) {
-                *most = Some(size(row))
-                    .filter(|x| x.is_finite())
-                    .unwrap_or(0.0)
-                    .max(*most);
+            for (most, size) in sizes.iter_mut().zip(nearby.iter().map(size)) {
+                if size.is_finite() {
+                    *most = most.max(size);
+                }
             }
         }
-        sizes
+        all(&sizes)
     }
 
     /// The position of the start block, not assembled, with what is held in it.

@@ -117,9 +117,9 @@ fn unassembled_velocities(numbers: &Numbers, place: &Place, found: &mut Diagnost
     };
     let v = at(&x);
     let errors = speed(&v);
-    let sizes = numbers.sizes(&jacobian, &v, &|at| numbers.velocity_level(at).1);
-    let mut sized = errors.iter().zip(sizes);
-    if sized.any(|(error, size)| error.abs() > HOLDS * size) {
+    let is_small = |error: f64, size: f64| error.abs() <= HOLDS * size;
+    let slopes_at = |at: &Place| numbers.velocity_level(at).1;
+    if !numbers.are_small(&errors, &is_small, (&jacobian, &v), &slopes_at) {
         let given = held.contains(&true) || of_start(numbers, &rows);
         let (message, help) = match given {
             true => (

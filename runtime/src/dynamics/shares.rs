@@ -11,7 +11,7 @@
 use super::erased::Constrained;
 use super::{Core, SingularValueDecomposition, Source};
 use crate::equations::At;
-use crate::linalg::{Workspace, add_scaled, column, dot, lift_row, norm, remove, scale};
+use crate::linalg::{Workspace, add_scaled, column, dot, lift_row, norm, pair, remove, scale};
 use crate::once::compiled_once;
 use crate::singular::Point;
 use crate::tolerance::{difference, regular, resolvable};
@@ -135,11 +135,7 @@ impl<'a, T: Real> Normals<'a, T> {
         for k in 0..all {
             let length = |j: &usize| norm(&self.across[j * n..][..n]);
             let longest = (k..all).fold(k, |a, b| if length(&b) > length(&a) { b } else { a });
-            for i in 0..n {
-                self.across.swap(k * n + i, longest * n + i);
-                self.whole.swap(k * n + i, longest * n + i);
-            }
-            let size = norm(&self.across[k * n..][..n]);
+            let size = length(&longest);
             // A comparison with NaN is false, and no normal is found.
             let enough = size > least;
             if !enough {
@@ -147,13 +143,17 @@ impl<'a, T: Real> Normals<'a, T> {
             }
             (self.count, self.clearest) = (k + 1, size);
             for vectors in [&mut *self.across, &mut *self.whole] {
+                if longest != k {
+                    let [own, other] = pair(vectors, n, k, longest);
+                    own.swap_with_slice(other);
+                }
                 scale(&mut vectors[k * n..][..n], T::one() / size);
             }
             for j in k + 1..all {
                 let share = dot(&self.across[j * n..][..n], &self.across[k * n..][..n]);
                 for vectors in [&mut *self.across, &mut *self.whole] {
-                    let (before, after) = vectors.split_at_mut(j * n);
-                    add_scaled(&mut after[..n], -share, &before[k * n..][..n]);
+                    let [own, other] = pair(vectors, n, j, k);
+                    add_scaled(own, -share, other);
                 }
             }
         }
@@ -190,7 +190,7 @@ fn share_on_sheet<T: Real>(
             solver,
             state,
             (direction, *time),
-            &decomposition,
+            (&decomposition, strong),
             tried.whole,
             workspace,
         );
@@ -228,12 +228,11 @@ fn differentiate<T: Real>(
     solver: &mut dyn Constrained<T>,
     state: At<'_, T>,
     (direction, time): (&[T], T),
-    decomposition: &SingularValueDecomposition<'_, T>,
+    (decomposition, strong): (&SingularValueDecomposition<'_, T>, usize),
     derivatives: &mut [T],
     workspace: &Workspace<'_, T>,
 ) {
     let n = state.q.len();
-    let strong = decomposition.above(least_told());
     let distance = difference::<T>() * solver.known().coordinate_scale.range;
     workspace.scope(|workspace| {
         let [moved, gradient, lifted] = [(); 3].map(|()| workspace.numbers(n));

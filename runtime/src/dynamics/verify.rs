@@ -81,7 +81,7 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
         }
         let held = self.held_powers(mechanism, [start, end])?;
         let Some(chart) = self.session.chart.take() else {
-            return Ok(());
+            return self.verify_far(mechanism, start, end);
         };
         let result = self.verify_near(mechanism, &chart, (start, end), held);
         self.session.chart = Some(chart);

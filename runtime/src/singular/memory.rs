@@ -122,7 +122,9 @@ mod tests {
             [(3, 8 * R), (1, N * R), (2, N * N)],
             [(9, R), (9, N), (0, 0)],
         ];
+        let shares = [decomposed, [(4, N * R), (5, N), (0, 0)]];
         for taken in [
+            shares.as_flattened(),
             decision.as_flattened(),
             start.as_flattened(),
             sizes.as_flattened(),
