@@ -3,17 +3,34 @@
 use crate::error::CommandError;
 use crate::run::Report;
 use crate::table::{Align, aligned};
-use bricard_runtime::{Counters, Form, Settings, Structure};
+use bricard_runtime::{Counters, Form, Settings, Stabilisation, Structure};
 use serde_json::{Value, json};
 
 /// Passages and events whose times are listed.
 const LISTED: usize = 20;
 
+/// Constraint error (m or rad) above which a motion is not that of the mechanism.
+const DRIFTED: f64 = 1e-3;
+
 /// What was done and how well, one quantity in a line.
 pub fn summary(report: &Report, structure: &Structure, settings: &Settings<f64>) -> String {
     let rows = quantities(report, structure, settings);
     let rows: Vec<Vec<String>> = rows.into_iter().map(Vec::from).collect();
-    aligned(&rows, &[Align::Left, Align::Left])
+    aligned(&rows, &[Align::Left, Align::Left]) + &drifted(report, settings)
+}
+
+/// What to say of a motion that has drifted off the constraints.
+fn drifted(report: &Report, settings: &Settings<f64>) -> String {
+    let error = report.constraint_error;
+    match settings.stabilisation {
+        Stabilisation::Projection => String::new(),
+        _ if error <= DRIFTED => String::new(),
+        _ => format!(
+            "warning: the motion has drifted off the constraints by {error:.1e}, and is not that of \
+             the mechanism; keep it there with `--stabilisation projection`, or take a smaller \
+             tolerance\n"
+        ),
+    }
 }
 
 /// What was done and how well: quantities and their values.

@@ -17,6 +17,9 @@ pub enum Singularity {
     Turning,
     /// Sheets touch without crossing, or more than two meet.
     Touching,
+    /// The motion has drifted off the constraints, too far to tell the sheets that cross apart:
+    /// nothing kept it there, or not closely enough.
+    Drifted,
     /// At rest, or next to it, nothing tells which of the sheets that cross is meant.
     Undetermined,
     /// The gradient of a constraint vanishes wherever it holds.
@@ -38,6 +41,11 @@ impl Display for Singularity {
             Self::Touching => {
                 "depends on the others where branches of motion touch, so that the way on can't be \
                  told; describe the branch that is meant by constraints of its own"
+            }
+            Self::Drifted => {
+                "nearly depends on the others, and the motion has drifted too far off the \
+                 constraints to tell on which branch it goes on; keep it there by projection, or \
+                 take a smaller tolerance"
             }
             Self::Vanishing => {
                 "has a gradient that vanishes not only here but wherever it holds, so that it \

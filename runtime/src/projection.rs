@@ -32,6 +32,8 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
             strays = self.project_onto_sheet(&mechanism, &mut placed)?;
         } else if self.settings.stabilisation == Stabilisation::Projection {
             self.project_regular(mechanism, &mut placed)?;
+        } else {
+            self.session.trial.end = self.sine_where_it_is(&mechanism, state)?;
         }
         if self.settings.stabilisation == Stabilisation::Projection {
             self.counters.projections += 1;
@@ -58,6 +60,25 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
         };
         self.session.trial.end = squared;
         Ok(())
+    }
+
+    /// The squared sine at a state that nothing projects. The factors also serve the acceleration
+    /// there.
+    #[inline(never)]
+    fn sine_where_it_is(
+        &mut self,
+        mechanism: &dyn Mechanism<T, N, R>,
+        state: &State<T, N>,
+    ) -> Result<T, DynamicsError<T>> {
+        mechanism.position(state, &mut self.position);
+        self.factorise_trial(mechanism, Source::Position, state.t)?;
+        let squared = self.factorise_constraints(Source::Position, Which::All);
+        self.session.trial.lowest = self.session.trial.lowest.min(squared);
+        if !passes(squared, window()) {
+            return self.leave_to_chart(mechanism, state, squared);
+        }
+        self.safe = Some((state.t, state.q));
+        Ok(squared)
     }
 
     /// Newton's iteration on `g = 0`, then one linear solve for `A q̇ + b = 0`; the

@@ -307,7 +307,10 @@ where
     }
 
     fn switch(&mut self, step: &Step<T, N>) -> Result<Switching<T>, DynamicsError<T>> {
-        self.solver.switch(&self.mechanism, step)
+        match self.solver.switch(&self.mechanism, step)? {
+            Switching::Nowhere if self.solver.changes_chart() => Ok(Switching::AtEnd),
+            found => Ok(found),
+        }
     }
 
     fn commit(&mut self, step: &Step<T, N>) -> Result<(), DynamicsError<T>> {

@@ -100,6 +100,13 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
             && self.session.chart.is_none()
     }
 
+    /// Whether the derivative at the end of a step is another one as soon as the step is accepted: off
+    /// the constraints, accelerations by another chart differ.
+    pub(crate) fn changes_chart(&self) -> bool {
+        let charts = self.session.chart.is_some() || self.session.trial.chart.is_some();
+        charts && self.settings.stabilisation != Stabilisation::Projection
+    }
+
     /// Takes note that the trial step needs a chart; the error with which it ends without one.
     #[cold]
     pub(crate) fn want_chart(

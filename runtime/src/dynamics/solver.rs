@@ -204,6 +204,7 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
             Obstacle::NotRegular | Obstacle::Unresolved => Singularity::Unresolved,
             Obstacle::NotContracting | Obstacle::LeftSheet => Singularity::Turning,
             Obstacle::Touching => Singularity::Touching,
+            Obstacle::Drifted => Singularity::Drifted,
             Obstacle::Undetermined => Singularity::Undetermined,
         };
         DynamicsError::SingularConfiguration {

@@ -9,8 +9,8 @@ use crate::linalg::is_zero;
 use crate::singular::{
     Chart, Obstacle, Placed, Point, choosing_poorly, counting, smallest_sine, staying,
 };
-use crate::tolerance::{accepted, safe_steps, window};
-use crate::{DynamicsError, Form, Mechanism, Real, Stabilisation, State, Structure};
+use crate::tolerance::{accepted, excusable, safe_steps, window};
+use crate::{DynamicsError, Form, Mechanism, Real, Stabilisation, State, Structure, Watched};
 
 /// A sine that falls below this part of its values at both ends of a step may have been zero in
 /// between.
@@ -24,6 +24,12 @@ const MOST_LOOKS: usize = 64;
 const ENERGY: f64 = 10.0;
 /// Energy that a step of fixed length may lose, relative to the kinetic energy.
 const ENERGY_OF_FIXED: f64 = 1e-4;
+/// Constraint error beside a singular configuration, in units of the tolerance, that may remain
+/// where positions are not projected. By experiment: with more, motions change branches unseen.
+const DRIFT: f64 = 1.0;
+/// Square of the sine, in units of the constraint error, above which an error does not decide which
+/// branch is taken.
+const GAPS: f64 = 100.0;
 /// Round-off of the energy, in units of that of a number.
 const ENERGY_ROUND_OFF: f64 = 1e3;
 
@@ -40,6 +46,9 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
         }
         if self.session.sine.is_none() {
             self.session.sine = Some(self.sine_at(mechanism, start)?);
+        }
+        if self.settings.stabilisation != Stabilisation::Projection {
+            self.verify_drift(mechanism, end)?;
         }
         match self.session.chart {
             None => {
@@ -378,12 +387,40 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
         end: &State<T, N>,
     ) -> Result<(), DynamicsError<T>> {
         let (worst, _) = self.residual(&self.position.residual);
+        let is_projected = self.settings.stabilisation == Stabilisation::Projection;
         // A comparison with NaN is false, so that a residual that is NaN counts as large.
-        let small = self.is_negligible(worst);
-        if small || self.settings.stabilisation != Stabilisation::Projection {
-            Ok(())
-        } else {
-            Err(self.failed(mechanism, end))
+        match self.is_negligible(worst) || !is_projected {
+            true => Ok(()),
+            false => Err(self.failed(mechanism, end)),
+        }
+    }
+
+    /// Refuses a step that ends off the constraints where its sine is not large enough to tell
+    /// sheets apart: where they would cross, a constraint error keeps them about the root of itself
+    /// apart.
+    #[inline(never)]
+    fn verify_drift(
+        &mut self,
+        mechanism: &dyn Mechanism<T, N, R>,
+        end: &State<T, N>,
+    ) -> Result<(), DynamicsError<T>> {
+        mechanism.position(end, &mut self.position);
+        let (worst, _) = self.residual(&self.position.residual);
+        if !worst.is_finite() {
+            let (t, quantity) = (end.t, Watched::ConstraintError);
+            return Err(DynamicsError::WatchedNotFinite { t, quantity });
+        }
+        let drift = worst / self.coordinate_scale.range;
+        let tolerance = self.session.tolerance.unwrap_or(T::zero());
+        let is_accurate = drift <= excusable::<T>().max(tolerance * T::from_f64(DRIFT));
+        // A step with a chart may have crossed another sheet.
+        let squared_sine = match self.session.chart.is_some() && self.is_beside() {
+            true => T::zero(),
+            false => self.session.trial.lowest.min(self.session.trial.end),
+        };
+        match is_accurate || squared_sine > drift * T::from_f64(GAPS) {
+            true => Ok(()),
+            false => Err(self.refusal(mechanism, Obstacle::Drifted, end.t)),
         }
     }
 

@@ -18,6 +18,8 @@ pub(crate) enum Obstacle {
     Unresolved,
     /// Sheets touch without crossing.
     Touching,
+    /// Nothing kept the motion on the constraints, and it is too far off to tell sheets apart.
+    Drifted,
     /// The state is in or next to a singular configuration, and nothing tells which of
     /// the sheets that cross there is meant.
     Undetermined,

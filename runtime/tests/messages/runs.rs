@@ -175,6 +175,18 @@ pub const MOTIONS: &[Case] = &[
          constraints of its own",
     ),
     (
+        "Singularity::Drifted",
+        "`(x - 1)*(y - 1) = 0`, begun 1e-3 beside it, where nothing projects",
+        || {
+            let mut options = rk4();
+            options.settings.stabilisation = Stabilisation::None;
+            from(Point::on(crossing), [[0.5, 1.002], [1.0, 0.0]], options)
+        },
+        "at t = … s the constraint `g = 0` (line 3) nearly depends on the others, and the motion \
+         has drifted too far off the constraints to tell on which branch it goes on; keep it \
+         there by projection, or take a smaller tolerance",
+    ),
+    (
         "Singularity::Undetermined",
         "`(x - 1)*(y - 1) = 0`, begun at rest where the lines cross",
         || {

@@ -17,6 +17,7 @@ mod references;
 mod scalar;
 mod scores;
 mod sizes;
+mod stabilisation;
 mod starts;
 mod stops;
 mod tolerances;
