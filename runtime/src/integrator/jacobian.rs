@@ -40,15 +40,15 @@ pub(super) fn differentiate<T: Real>(
     let n = a.len();
     let near = workspace.any(n);
     let variation = T::EPSILON.powf(T::from_f64(VARIATION));
-    let (change_q, change_v) = (size(at.q) * variation, size(at.v) * variation);
+    let (least_q, least_v) = (least_size(at.q), least_size(at.v));
     for j in 0..n {
         near.copy_from_slice(at.q);
-        near[j] += change_q;
+        near[j] += near[j].abs().max(least_q) * variation;
         let out = &mut by_q[j * n..][..n];
         flow.accelerate(At { q: near, ..at }, out)?;
         divide(out, a, near[j] - at.q[j]);
         near.copy_from_slice(at.v);
-        near[j] += change_v;
+        near[j] += near[j].abs().max(least_v) * variation;
         let out = &mut by_v[j * n..][..n];
         flow.accelerate(At { v: near, ..at }, out)?;
         divide(out, a, near[j] - at.v[j]);
@@ -56,16 +56,72 @@ pub(super) fn differentiate<T: Real>(
     Ok(())
 }
 
-/// The largest entry. A coordinate that is zero has no size of its own; it is given that of
-/// the others.
-fn size<T: Real>(x: &[T]) -> T {
+/// The least that entries are taken to be: the largest entry, as one that is zero has no size of
+/// its own; but at most one unit, as the others may be of another kind and larger by far.
+fn least_size<T: Real>(x: &[T]) -> T {
     let most = x.iter().fold(T::zero(), |most: T, x| most.max(x.abs()));
-    if most > T::zero() { most } else { T::one() }
+    if most > T::zero() {
+        most.min(T::one())
+    } else {
+        T::one()
+    }
 }
 
 /// The difference quotient.
 fn divide<T: Real>(near: &mut [T], here: &[T], difference: T) {
     for (near, here) in near.iter_mut().zip(here) {
         *near = (*near - *here) / difference;
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Two oscillators whose derivatives are not known: `q̈ = sin q − q̇³`.
+    struct Oscillators;
+
+    impl Flow<f64> for Oscillators {
+        fn accelerate(
+            &mut self,
+            at: At<'_, f64>,
+            out: &mut [f64],
+        ) -> Result<(), DynamicsError<f64>> {
+            for (out, (q, v)) in out.iter_mut().zip(at.q.iter().zip(at.v)) {
+                *out = q.sin() - v.powi(3);
+            }
+            Ok(())
+        }
+
+        fn derivatives(&mut self, _: At<'_, f64>, _: &mut [f64], _: &mut [f64]) -> bool {
+            false
+        }
+    }
+
+    /// What a motor has done in an hour is a number of another size than an angle, and the angle is
+    /// not varied by a part of it.
+    #[test]
+    fn coordinates_are_varied_relative_to_their_own_size() {
+        for other in [0.0, 1.0, 1e3, 1e6, 1e9] {
+            let (q, v) = ([0.4, other], [0.2, 0.3]);
+            let at = At {
+                t: 0.0,
+                q: &q,
+                v: &v,
+            };
+            let mut numbers = [0.0; 2];
+            let workspace = Workspace::new(&mut numbers, &mut [], &mut []);
+            let (mut a, mut by_q, mut by_v) = ([0.0; 2], [0.0; 4], [0.0; 4]);
+            Oscillators
+                .accelerate(at, &mut a)
+                .expect("a sine is finite");
+            differentiate(&mut Oscillators, at, &a, (&mut by_q, &mut by_v), &workspace)
+                .expect("a sine is finite");
+            assert!(
+                (by_q[0] - 0.4_f64.cos()).abs() < 1e-5,
+                "{other:e}: {by_q:?}"
+            );
+            assert!((by_v[3] + 0.27).abs() < 1e-5, "{other:e}: {by_v:?}");
+        }
     }
 }
