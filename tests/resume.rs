@@ -207,3 +207,22 @@ fn checkpoints_of_other_runs_are_refused() {
     fs::write(&file, r#"{"format": 3, "run": "another"}"#).expect("a file can be written");
     check_refused(&go_on, 2, &["another run", "same mechanism and options"]);
 }
+
+/// What ends before the first checkpoint says so, and an old checkpoint is not offered.
+#[test]
+fn a_run_that_ends_before_its_first_checkpoint_says_so() {
+    let folder = folder("resume-early");
+    let file = folder.join("run.checkpoint").to_string_lossy().into_owned();
+    let _none_left = fs::remove_file(&file);
+    let rows = folder.join("rows.csv");
+    // This form ends at the first singular position.
+    let arguments: &[&str] = &["slider_crank", "--form", "multipliers", "--until", "5"];
+    let ran = bricard(&words(&run(arguments, &rows, &["--checkpoint", &file])));
+    assert_eq!(ran.status, Some(1), "{}", ran.err);
+    assert!(ran.err.contains("no checkpoint was written"), "{}", ran.err);
+    check_refused(
+        &words(&run(arguments, &rows, &["--resume", &file])),
+        1,
+        &["there is no such file", "its first checkpoint"],
+    );
+}

@@ -68,6 +68,12 @@ impl<'a> CheckpointWriter<'a> {
         }
     }
 
+    /// Whether a checkpoint of this run was written.
+    pub fn has_written(&self) -> bool {
+        let file = self.checkpoints.file.as_ref();
+        self.last.is_some() && file.is_some_and(|file| file.exists())
+    }
+
     /// Writes the last checkpoint that was taken.
     ///
     /// # Errors
@@ -107,6 +113,12 @@ fn replace(path: &Path, text: &str) -> io::Result<()> {
 /// [`CommandError::Read`], and [`CommandError::Checkpoint`] if the file is no checkpoint, or one
 /// of another run.
 pub fn read(path: &Path, run: &str, structure: &Structure) -> Result<Checkpoint, CommandError> {
+    if !path.exists() {
+        let hint = "there is no such file; a run writes its first checkpoint after some thousand \
+                    steps, when it has taken five seconds or is interrupted";
+        let error = io::Error::new(io::ErrorKind::NotFound, hint);
+        return Err(CommandError::Read(path.to_path_buf(), error));
+    }
     let text = description::read(path)?;
     Checkpoint::read(&text, run, structure).map_err(|reason| CommandError::Checkpoint {
         path: path.to_path_buf(),

@@ -24,6 +24,8 @@ pub struct Stopped {
     pub time: Option<f64>,
     /// What was done before.
     pub report: Option<Box<Report>>,
+    /// Whether the run can be taken up again from a checkpoint.
+    pub resumable: bool,
 }
 
 fn failed(reason: String) -> CommandError {
@@ -66,6 +68,7 @@ pub fn run(
                 error: failed(with_guess(text)),
                 time: None,
                 report: None,
+                resumable: from.is_some(),
             })?;
         report.add(&reached, structure);
         let time = reached.state.first().copied();
@@ -94,6 +97,7 @@ pub fn run(
                 error,
                 time,
                 report,
+                resumable: from.is_some() || writer.is_some_and(|writer| writer.has_written()),
             });
         }
     }

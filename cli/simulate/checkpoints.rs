@@ -77,12 +77,16 @@ fn described(
     ))
 }
 
-/// Says that a run can be taken up again, if it can.
-pub fn say_how_to_go_on(arguments: &Simulate) {
-    if let Some(file) = arguments.checkpoint.as_ref().filter(|file| file.exists()) {
-        let file = file.display();
-        say(&format!(
+/// Says how a run that ended early can be taken up again, or why it can't.
+pub fn say_how_to_go_on(arguments: &Simulate, resumable: bool) {
+    let Some(file) = arguments.checkpoint.as_ref() else {
+        return;
+    };
+    let file = file.display();
+    match resumable {
+        true => say(&format!(
             "the run can be taken up again: the same command with `--resume {file}`"
-        ));
+        )),
+        false => say("no checkpoint was written: the first is due after some thousand steps"),
     }
 }

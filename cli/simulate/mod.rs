@@ -110,8 +110,10 @@ pub fn simulate_for(arguments: &Simulate, live: Option<&Live>) -> Result<(), Com
     }
     match result {
         Ok(_) => Ok(()),
-        Err(Stopped { error, .. }) => {
-            checkpoints::say_how_to_go_on(arguments);
+        Err(Stopped {
+            error, resumable, ..
+        }) => {
+            checkpoints::say_how_to_go_on(arguments, resumable);
             Err(error.with(kept))
         }
     }
