@@ -256,7 +256,7 @@ pub struct Simulate {
     #[arg(long, value_name = "h", allow_hyphen_values = true, value_parser = formula::number, conflicts_with_all = ["rtol", "atol"])]
     pub step: Option<f64>,
     /// Relative error per step that an adaptive method may make [default: 1e-9]
-    #[arg(long, alias = "tolerance", value_name = "r", allow_hyphen_values = true, value_parser = formula::number)]
+    #[arg(long, aliases = ["tol", "tolerance"], value_name = "r", allow_hyphen_values = true, value_parser = formula::number)]
     pub rtol: Option<f64>,
     /// Absolute error per step that it may make [default: the value of --rtol]
     #[arg(long, value_name = "a", allow_hyphen_values = true, value_parser = formula::number)]

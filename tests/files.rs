@@ -62,6 +62,38 @@ fn a_picture_holds_the_chosen_curves_and_no_others() {
     assert!(!svg.contains("time t"));
 }
 
+/// Hundreds of oscillations in one picture: rows are close enough to show each, or their distance
+/// is said to mislead; passages that would be a grey area are counted instead.
+#[test]
+fn a_picture_of_a_long_run_is_not_that_of_a_slow_motion() {
+    let folder = folder("long_run");
+    let [picture, rows] = ["run.svg", "run.csv"].map(|name| folder.join(name));
+    let [picture, rows] = [&picture, &rows].map(|path| path.to_string_lossy().into_owned());
+    let run = [
+        "simulate",
+        "double_four_bar",
+        "--until",
+        "600",
+        "--rtol",
+        "1e-6",
+    ];
+    let alone = bricard(&[&run[..], &["--plot", &picture]].concat());
+    assert_eq!(alone.status, Some(0), "{}", alone.err);
+    assert!(!alone.err.contains("warning"), "{}", alone.err);
+    let drawn = fs::read_to_string(&picture).expect("a picture");
+    assert!(drawn.contains(", not marked)"), "{drawn:.2000}");
+    assert!(drawn.len() < 100_000, "{} bytes", drawn.len());
+    let sparse = bricard(&[&run[..], &["--plot", &picture, "--out", &rows]].concat());
+    assert_eq!(sparse.status, Some(0), "{}", sparse.err);
+    assert!(
+        sparse.err.contains("a row every 0.6 s, with"),
+        "{}",
+        sparse.err
+    );
+    let count = fs::read_to_string(&rows).expect("rows").lines().count();
+    assert_eq!(count, 1 + 1001);
+}
+
 #[test]
 fn a_summary_as_json_says_what_was_done() {
     let path = folder("json").join("run.csv");

@@ -12,6 +12,8 @@ use std::fs;
 use std::path::Path;
 
 /// Width of a picture (pixels).
+/// Times of one kind that are marked: more would be a grey area.
+const MOST_MARKS: usize = 500;
 const WIDTH: u32 = 860;
 /// Height of a panel (pixels).
 const PANEL: u32 = 190;
@@ -42,6 +44,13 @@ pub struct Marks {
     pub times: Vec<f64>,
     /// What happens.
     pub name: String,
+}
+
+impl Marks {
+    /// Whether there are few enough to tell one from the next.
+    fn are_shown(&self) -> bool {
+        self.times.len() <= MOST_MARKS
+    }
 }
 
 /// Draws panels with a common axis of time (s), and writes them.
@@ -162,7 +171,10 @@ fn entries(curves: &[Curve], happens: &[&Marks]) -> Vec<Entry> {
         kind: Kind::Curve(curve.place),
     };
     let mark = |(place, marks): (usize, &&Marks)| Entry {
-        name: marks.name.clone(),
+        name: match marks.are_shown() {
+            true => marks.name.clone(),
+            false => format!("{} ({}, not marked)", marks.name, marks.times.len()),
+        },
         kind: Kind::Mark(place),
     };
     let marks = happens.iter().enumerate().map(mark);
@@ -211,7 +223,7 @@ fn diagram(
     if last {
         time.note_below(area, MARGINS.1)?;
     }
-    for (place, marks) in marks.iter().enumerate() {
+    for (place, marks) in marks.iter().enumerate().filter(|(_, x)| x.are_shown()) {
         let style = mark(place).stroke_width(DETAIL);
         let line = |t: f64| PathElement::new(vec![(t, axis.range.0), (t, axis.range.1)], style);
         let shown = marks

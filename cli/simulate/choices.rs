@@ -32,6 +32,10 @@ const MOST_ROWS: f64 = 1e10;
 /// method are too long for a smooth curve.
 const PLOTTED: f64 = 1000.0;
 
+/// Intervals for each second of a plot whose rows are for nothing else, and the most of them.
+const DENSE: f64 = 20.0;
+const MOST_DENSE: f64 = 20_000.0;
+
 /// Intervals for each second of a page, on which the mechanism moves, and the most of them.
 const FRAMES: f64 = 100.0;
 const MOST_FRAMES: f64 = 6000.0;
@@ -60,6 +64,7 @@ pub fn plan(arguments: &Simulate) -> Result<Plan, CommandError> {
     let moving = arguments.plot.as_deref().is_some_and(is_page) || arguments.film.is_some();
     let intervals = match moving {
         true => (FRAMES * arguments.until).clamp(PLOTTED, MOST_FRAMES),
+        false if arguments.out.is_none() => (DENSE * arguments.until).clamp(PLOTTED, MOST_DENSE),
         false => PLOTTED,
     };
     let every = arguments

@@ -12,6 +12,7 @@ use crate::formula::{Assignment, Setting};
 use crate::mechanism::description;
 use crate::mistakes::{self, both};
 use crate::number::exact;
+use crate::output::say;
 use crate::page::{self, Live, Sliders, is_page};
 use crate::plot::{Marks, Portrait, Sheet, Times, panels_as_svg, phase_as_svg};
 use crate::raster;
@@ -20,6 +21,9 @@ use crate::simulate::film::film;
 use bricard_driver::{AnyMechanism, Changes};
 use bricard_runtime::{Stabilisation, StepControl, Structure};
 use std::path::Path;
+
+/// Steps between two rows of a picture from which on it may mislead.
+const SPARSE: f64 = 2.0;
 
 /// What a picture tells of a run besides its rows.
 pub struct Picture<'a> {
@@ -128,6 +132,7 @@ impl Picture<'_> {
     pub fn draw(&self, runs: &[Called]) -> Result<Vec<String>, CommandError> {
         let (plot, path) = (&self.arguments.plot, &self.arguments.film);
         if let Some(plot) = plot {
+            self.sparse().into_iter().for_each(|text| say(&text));
             match is_page(plot) {
                 true => self.page(plot, runs)?,
                 false => raster::write(plot, &self.plot(plot, runs)?, self.is_print())?,
@@ -138,6 +143,20 @@ impl Picture<'_> {
         }
         let files = plot.iter().chain(path);
         Ok(files.map(|path| path.display().to_string()).collect())
+    }
+
+    /// What to say where rows are so far apart that steps, which follow the motion, lie between
+    /// them: a fast oscillation would look like a slow one.
+    fn sparse(&self) -> Option<String> {
+        let every = self.plan.every.filter(|_| self.arguments.every.is_none())?;
+        let between = self.report?.steps as f64 * every / self.plan.options.until;
+        (between > SPARSE).then(|| {
+            format!(
+                "warning: the picture shows a row every {} s, with {between:.0} steps between two; \
+                 fast oscillations may look slow or be lost; give a smaller `--every`",
+                exact(every)
+            )
+        })
     }
 
     fn is_print(&self) -> bool {
