@@ -25,7 +25,7 @@ use crate::interrupt;
 use crate::law::described_with;
 use crate::output::{print, say};
 use crate::page::Live;
-use crate::run::{Stopped, run};
+use crate::run::run;
 use cases::Case;
 use picture::Picture;
 use prepare::{Prepared, prepared};
@@ -110,11 +110,9 @@ pub fn simulate_for(arguments: &Simulate, live: Option<&Live>) -> Result<(), Com
     }
     match result {
         Ok(_) => Ok(()),
-        Err(Stopped {
-            error, resumable, ..
-        }) => {
-            checkpoints::say_how_to_go_on(arguments, resumable);
-            Err(error.with(kept))
+        Err(stopped) => {
+            checkpoints::say_how_to_go_on(arguments, stopped.resumable);
+            Err(stopped.error.with(kept))
         }
     }
 }

@@ -394,6 +394,7 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
             length: step.end.t - start.t,
             after,
             tolerance: self.session.tolerance,
+            rheonomic: !mechanism.structure().scleronomic,
             at: &at,
             open: open.as_ref().map(|(t, q)| (*t, q.as_slice())),
         };

@@ -5,6 +5,7 @@
 
 use crate::Real;
 use crate::equations::At;
+use crate::tolerance::resolvable;
 
 /// Passages that are found in one search.
 const ROOM: usize = 8;
@@ -14,6 +15,11 @@ const AT_ONCE: f64 = 1e-6;
 /// step is off by about one tolerance, relative to the range of the coordinates, of which a step is
 /// a part.
 const TOLERANCES: f64 = 10.0;
+/// By how much the inside of a step may be beyond a singular configuration that the motion only
+/// touches: in tolerances, and in least errors of an interpolation where steps are fixed. By
+/// experiment, with laws that turn there.
+const BEYOND: f64 = 0.01;
+const BEYOND_OF_FIXED: f64 = 10.0;
 
 /// A passage through a singular configuration.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -37,6 +43,8 @@ pub(crate) struct Searched<'a, T> {
     pub(crate) after: T,
     /// Accepted error of the step, relative, if there is one.
     pub(crate) tolerance: Option<T>,
+    /// Constraints contain the time: a law may turn exactly in a singular configuration.
+    pub(crate) rheonomic: bool,
     /// The positions of the step.
     pub(crate) at: &'a dyn Fn(T, &mut [T]),
     /// Where the search of the steps before was left open.
@@ -48,6 +56,16 @@ impl<T: Real> Searched<'_, T> {
     pub(super) fn at_once(&self) -> T {
         let known = self.tolerance.unwrap_or_default() * T::from_f64(TOLERANCES);
         self.length * known.max(T::from_f64(AT_ONCE))
+    }
+
+    /// The sine up to which the inside of the step does not tell on which side of a singular
+    /// configuration it is.
+    pub(super) fn unseen(&self) -> T {
+        match self.tolerance {
+            _ if !self.rheonomic => T::zero(),
+            Some(tolerance) => resolvable::<T>().max(tolerance * T::from_f64(BEYOND)),
+            None => resolvable::<T>() * T::from_f64(BEYOND_OF_FIXED),
+        }
     }
 
     /// The position at a time of the step, or on the way to it from where the search was left

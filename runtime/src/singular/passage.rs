@@ -367,7 +367,8 @@ impl<T: Real> Sheet<'_, T> {
     }
 
     /// Whether the sign of a determinant within a step, whose frame is at hand, is that of the
-    /// motion.
+    /// motion: beyond a singular configuration by more than what the inside of a step may be off,
+    /// whose error along a sheet leaves no constraint error.
     fn is_told(
         &mut self,
         search: &Search<'_, T>,
@@ -377,7 +378,8 @@ impl<T: Real> Sheet<'_, T> {
         workspace.scope(|workspace| {
             let q = workspace.numbers(self.chart.n());
             search.step.position(there.t, q);
-            self.tells(self.frame.smallest(), there.determinant, (there.t, q))
+            let sine = self.frame.smallest();
+            sine > search.step.unseen() && self.tells(sine, there.determinant, (there.t, q))
         })
     }
 

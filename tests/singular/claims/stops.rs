@@ -1,7 +1,10 @@
 //! Laws of time that turn back beside a dead centre, and in it: states there need not lose
 //! more digits than round-off takes.
 
+use bricard_runtime::{Method, Options, Whole, assemble, simulate};
+use bricard_singular::descriptions::driven_crank::DrivenCrank;
 use bricard_singular::{Score, find, run_all};
+use core::f64::consts::FRAC_PI_2;
 
 fn right(places: &[(u64, usize)]) {
     let series = find("driven_stops").expect("it is a series");
@@ -31,4 +34,35 @@ fn nodes_do_not_move_together_where_the_law_of_time_stops() {
 #[test]
 fn a_law_of_time_that_turns_between_two_crossings_is_followed() {
     right(&[(1, 71), (1, 91), (1, 103)]);
+}
+
+/// A law that turns exactly in a dead centre passes nothing there: the inside of a step may be
+/// beyond it by a part of the tolerance all the same. One that turns a little beyond passes twice.
+#[test]
+fn a_law_of_time_that_turns_in_a_dead_centre_passes_nothing() {
+    let methods = [Method::Dop853, Method::Dp5, Method::Radau5, Method::Radau9];
+    for (place, beyond) in (0..24).zip([0.0, 1e-6, 0.0, -1e-6, 0.0].into_iter().cycle()) {
+        let mut mechanism = DrivenCrank::<f64>::default();
+        // It turns at t = w/a.
+        let (w, a) = (
+            1.5 + 0.05 * f64::from(place),
+            2.3 + 0.31 * f64::from(place % 7),
+        );
+        let parameters = &mut mechanism.parameters;
+        (parameters.w, parameters.al) = (w, -a);
+        parameters.p0 = FRAC_PI_2 + beyond - w * w / (2.0 * a);
+        let mechanism: &dyn Whole<f64, 4, 3> = &mechanism;
+        let start = assemble(mechanism, &mechanism.start(), 0.0).expect("it can be assembled");
+        for tolerance in [1e-6, 1e-8, 1e-10, 1e-11] {
+            let options = Options {
+                method: methods[place as usize % methods.len()],
+                ..Options::dop853(1.9 * w / a, tolerance)
+            };
+            let name = format!("{:?} {tolerance:e} {w} {a} {beyond:e}", options.method);
+            let ran = simulate(mechanism, &start, &options, &mut []);
+            let summary = ran.unwrap_or_else(|failure| panic!("{name}: {failure}"));
+            let expected = if beyond > 0.0 { 2 } else { 0 };
+            assert_eq!(summary.passages, Some(expected), "{name}");
+        }
+    }
 }
