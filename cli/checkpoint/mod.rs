@@ -68,10 +68,11 @@ impl<'a> CheckpointWriter<'a> {
         }
     }
 
-    /// Whether a checkpoint of this run was written.
-    pub fn has_written(&self) -> bool {
-        let file = self.checkpoints.file.as_ref();
-        self.last.is_some() && file.is_some_and(|file| file.exists())
+    /// Whether the file holds a checkpoint that this run has written, or may have begun with.
+    pub fn can_be_resumed(&self) -> bool {
+        let Checkpoints { file, from, .. } = self.checkpoints;
+        let is_known = self.last.is_some() || from.is_some();
+        is_known && file.as_ref().is_some_and(|file| file.exists())
     }
 
     /// Writes the last checkpoint that was taken.

@@ -27,8 +27,6 @@ const NUMBERS: usize = 60_000;
 const ROWS: usize = 6000;
 /// Numbers of all frames of the moving picture that a page has room for.
 const PLACES: usize = 100_000;
-/// Times of one kind that are marked.
-const MARKS: usize = 500;
 
 /// What a page tells of a run.
 pub struct Run<'a> {
@@ -181,7 +179,7 @@ fn described(quantity: &Quantity, value: f64) -> Value {
 }
 
 fn marks((place, marks): (usize, &Marks)) -> Value {
-    let shown = &marks.times[..marks.times.len().min(MARKS)];
+    let shown = &marks.times[..marks.times.len().min(Marks::MOST)];
     // Passages come first, then the events in the order of the description.
     json!({
         "name": marks.name,

@@ -12,8 +12,6 @@ use std::fs;
 use std::path::Path;
 
 /// Width of a picture (pixels).
-/// Times of one kind that are marked: more would be a grey area.
-const MOST_MARKS: usize = 500;
 const WIDTH: u32 = 860;
 /// Height of a panel (pixels).
 const PANEL: u32 = 190;
@@ -47,9 +45,12 @@ pub struct Marks {
 }
 
 impl Marks {
+    /// Times of one kind that are marked: more would be a grey area.
+    pub const MOST: usize = 500;
+
     /// Whether there are few enough to tell one from the next.
     fn are_shown(&self) -> bool {
-        self.times.len() <= MOST_MARKS
+        self.times.len() <= Self::MOST
     }
 }
 

@@ -68,7 +68,9 @@ pub fn run(
                 error: failed(with_guess(text)),
                 time: None,
                 report: None,
-                resumable: from.is_some(),
+                resumable: writer
+                    .as_ref()
+                    .is_some_and(CheckpointWriter::can_be_resumed),
             })?;
         report.add(&reached, structure);
         let time = reached.state.first().copied();
@@ -97,7 +99,9 @@ pub fn run(
                 error,
                 time,
                 report,
-                resumable: from.is_some() || writer.is_some_and(|writer| writer.has_written()),
+                resumable: writer
+                    .as_ref()
+                    .is_some_and(CheckpointWriter::can_be_resumed),
             });
         }
     }

@@ -9,7 +9,7 @@
 
 use crate::dynamics::{CoordinateScale, Core, MAX_ITERATIONS, Source, Which};
 use crate::tolerance::{contraction, critical, negligible, passes, round_off, window};
-use crate::{DynamicsError, Mechanism, Real, Stabilisation, State};
+use crate::{DynamicsError, Mechanism, Real, State};
 use nalgebra::SVector;
 
 impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
@@ -30,12 +30,12 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
         let mut strays = false;
         if self.session.chart.is_some() && self.follows() && self.is_beside() {
             strays = self.project_onto_sheet(&mechanism, &mut placed)?;
-        } else if self.settings.stabilisation == Stabilisation::Projection {
+        } else if self.is_projected() {
             self.project_regular(mechanism, &mut placed)?;
         } else {
             self.session.trial.end = self.sine_where_it_is(&mechanism, state)?;
         }
-        if self.settings.stabilisation == Stabilisation::Projection {
+        if self.is_projected() {
             self.counters.projections += 1;
             *state = placed;
         }
@@ -71,13 +71,24 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
         state: &State<T, N>,
     ) -> Result<T, DynamicsError<T>> {
         mechanism.position(state, &mut self.position);
-        self.factorise_trial(mechanism, Source::Position, state.t)?;
-        let squared = self.factorise_constraints(Source::Position, Which::All);
-        self.session.trial.lowest = self.session.trial.lowest.min(squared);
+        let squared = self.sine_at_end(mechanism, state)?;
         if !passes(squared, window()) {
             return self.leave_to_chart(mechanism, state, squared);
         }
         self.safe = Some((state.t, state.q));
+        Ok(squared)
+    }
+
+    /// The squared sine at the end of a trial step, whose position is in the buffer, with the
+    /// factors.
+    fn sine_at_end(
+        &mut self,
+        mechanism: &dyn Mechanism<T, N, R>,
+        end: &State<T, N>,
+    ) -> Result<T, DynamicsError<T>> {
+        self.factorise_trial(mechanism, Source::Position, end.t)?;
+        let squared = self.factorise_constraints(Source::Position, Which::All);
+        self.session.trial.lowest = self.session.trial.lowest.min(squared);
         Ok(squared)
     }
 
@@ -97,9 +108,7 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
             mechanism.position(state, &mut self.position);
             let worst = self.finite_residual(state)?;
             if self.is_on_constraints(worst, before) {
-                self.factorise_trial(mechanism, Source::Position, state.t)?;
-                let squared = self.factorise_constraints(Source::Position, Which::All);
-                self.session.trial.lowest = self.session.trial.lowest.min(squared);
+                let squared = self.sine_at_end(mechanism, state)?;
                 if !passes(squared, window()) {
                     return self.leave_to_chart(mechanism, state, squared);
                 }

@@ -36,7 +36,12 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
 
     /// Whether a start is put onto the constraints.
     pub(crate) fn places_starts(&self) -> bool {
-        R > 0 && self.settings.stabilisation == Stabilisation::Projection
+        R > 0 && self.is_projected()
+    }
+
+    /// Whether accepted states are put onto the constraints.
+    pub(crate) fn is_projected(&self) -> bool {
+        self.settings.stabilisation == Stabilisation::Projection
     }
 
     /// Begins at a state, or at where it was put onto the constraints if it is not on them
@@ -104,7 +109,7 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
     /// the constraints, accelerations by another chart differ.
     pub(crate) fn changes_chart(&self) -> bool {
         let charts = self.session.chart.is_some() || self.session.trial.chart.is_some();
-        charts && self.settings.stabilisation != Stabilisation::Projection
+        charts && !self.is_projected()
     }
 
     /// Takes note that the trial step needs a chart; the error with which it ends without one.

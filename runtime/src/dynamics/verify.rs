@@ -10,7 +10,7 @@ use crate::singular::{
     Chart, Obstacle, Placed, Point, choosing_poorly, counting, smallest_sine, staying,
 };
 use crate::tolerance::{accepted, excusable, safe_steps, window};
-use crate::{DynamicsError, Form, Mechanism, Real, Stabilisation, State, Structure, Watched};
+use crate::{DynamicsError, Form, Mechanism, Real, State, Structure, Watched};
 
 /// A sine that falls below this part of its values at both ends of a step may have been zero in
 /// between.
@@ -47,7 +47,7 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
         if self.session.sine.is_none() {
             self.session.sine = Some(self.sine_at(mechanism, start)?);
         }
-        if self.settings.stabilisation != Stabilisation::Projection {
+        if !self.is_projected() {
             self.verify_drift(mechanism, end)?;
         }
         match self.session.chart {
@@ -143,7 +143,7 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
         }
         self.look_between(mechanism, (start, end), comes_near)?;
         // Where nothing keeps a motion on the constraints, its energy drifts together with it.
-        match outruns_rate && self.settings.stabilisation == Stabilisation::Projection {
+        match outruns_rate && self.is_projected() {
             true => {
                 let held = self.held_powers(mechanism, [start, end])?;
                 self.verify_energy(mechanism, (start, end), held)
@@ -387,9 +387,8 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
         end: &State<T, N>,
     ) -> Result<(), DynamicsError<T>> {
         let (worst, _) = self.residual(&self.position.residual);
-        let is_projected = self.settings.stabilisation == Stabilisation::Projection;
         // A comparison with NaN is false, so that a residual that is NaN counts as large.
-        match self.is_negligible(worst) || !is_projected {
+        match self.is_negligible(worst) || !self.is_projected() {
             true => Ok(()),
             false => Err(self.failed(mechanism, end)),
         }
