@@ -52,11 +52,24 @@ const NOISE: f64 = 0.01;
 /// round-off.
 const NOISE_OF_FIXED: f64 = 4096.0;
 
+/// What is told from noise within a step, in units of what functions are off by. By experiment:
+/// with less, what Newton's iterations leave within a step counts as motion.
+const TOLD: f64 = 1e4;
+/// What is told at any tolerance.
+const SURELY_TOLD: f64 = 0.01;
+
 /// What functions of states within a step are off by, relative to their size there, if steps
 /// follow a tolerance.
 pub(crate) fn noise<T: Real>(tolerance: Option<T>) -> T {
     let accepted = tolerance.unwrap_or(T::zero()) * T::from_f64(NOISE);
     accepted.max(T::EPSILON * T::from_f64(NOISE_OF_FIXED))
+}
+
+/// The least that is told from noise within a step, as a part of what is known from steps before:
+/// the length of an excursion from zero, the height of one between two ends at which the function
+/// is zero, as the velocity of what dry friction holds.
+pub(crate) fn told<T: Real>(noise: T) -> T {
+    (noise * T::from_f64(TOLD)).min(T::from_f64(SURELY_TOLD))
 }
 
 /// Samples of a function on an interval.

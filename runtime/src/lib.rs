@@ -14,6 +14,7 @@ mod natural_size;
 mod number;
 mod observer;
 mod once;
+mod pace;
 mod projection;
 mod real;
 mod sides;

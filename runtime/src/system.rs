@@ -105,12 +105,13 @@ pub trait System<T: Real, const N: usize> {
     }
 
     /// Where the equations change within a step that is about to be accepted, which was
-    /// made with those from its start.
+    /// made with those from its start. May give the end of the step another velocity, within
+    /// its error, if they change there.
     ///
     /// # Errors
     ///
     /// A [`DynamicsError`] if that can't be told, or nothing can follow.
-    fn switch(&mut self, _step: &Step<T, N>) -> Result<Switching<T>, DynamicsError<T>> {
+    fn switch(&mut self, _step: &mut Step<T, N>) -> Result<Switching<T>, DynamicsError<T>> {
         Ok(Switching::Nowhere)
     }
 

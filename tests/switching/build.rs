@@ -20,6 +20,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     }
     for name in [
         "contact",
+        "cranked",
         "drawn",
         "friction",
         "frozen",

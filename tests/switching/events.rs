@@ -11,7 +11,7 @@ use core::ops::ControlFlow;
 
 /// Collects when events happen.
 #[derive(Default)]
-struct Diary(Vec<(usize, f64, bool)>);
+pub(crate) struct Diary(pub(crate) Vec<(usize, f64, bool)>);
 
 impl<const N: usize> Observer<f64, N> for Diary {
     fn step(

@@ -1,6 +1,7 @@
 //! Mechanisms whose forces jump.
 
 include!(concat!(env!("OUT_DIR"), "/contact.rs"));
+include!(concat!(env!("OUT_DIR"), "/cranked.rs"));
 include!(concat!(env!("OUT_DIR"), "/drawn.rs"));
 include!(concat!(env!("OUT_DIR"), "/friction.rs"));
 include!(concat!(env!("OUT_DIR"), "/frozen.rs"));

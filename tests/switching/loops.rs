@@ -1,6 +1,9 @@
 //! Forces that jump in closed loops: what holds them, and what draws them to dead centres.
 
-use bricard_runtime::{Options, Summary, Whole, assemble, simulate};
+use crate::events::Diary;
+use bricard_runtime::{Interface, Method, Options, Summary, Whole, assemble, simulate};
+use bricard_switching::cranked::Cranked;
+
 use bricard_switching::drawn::Drawn;
 use bricard_switching::jointed::Jointed;
 use bricard_switching::jointed_reduced::JointedReduced;
@@ -43,6 +46,73 @@ fn friction_in_every_joint_of_a_loop_brings_it_to_rest() {
             let exact = run::<1, 0>(&reduced, (6.0, 1e-11)).end.q[0];
             let off = end.q[0] - exact;
             assert!(off.abs() < 1e4 * tolerance, "{name}: off by {off:e}");
+        }
+    }
+}
+
+/// A run of the crank, and how often each of its events happened.
+fn cranked(mechanism: &Cranked<f64>, options: &Options<f64>) -> (Summary<f64, 4>, [Vec<f64>; 2]) {
+    let start = assemble::<f64, _, 4, 2>(mechanism, &mechanism.start(), 0.0).expect("a start");
+    let mut diary = Diary::default();
+    let name = format!("{:?} {:?}", options.method, options.step_control);
+    let summary = simulate::<_, _, 4, 2>(mechanism, &start, options, &mut [&mut diary])
+        .unwrap_or_else(|failure| panic!("{name}: {failure}"));
+    let times = |event: usize| {
+        let happened = diary.0.iter().filter(|(index, ..)| *index == event);
+        happened.map(|(_, t, _)| *t).collect()
+    };
+    (summary, [times(0), times(1)])
+}
+
+/// Every method that controls its steps.
+const METHODS: [Method; 4] = [Method::Dop853, Method::Dp5, Method::Radau5, Method::Radau9];
+
+/// The pendulum goes on for hundreds of steps, each of which is off by something.
+#[test]
+fn a_crank_that_friction_holds_stopped_once_and_does_not_creep() {
+    let mut mechanism = Cranked::default();
+    let parameters = &mut mechanism.parameters;
+    (parameters.f, parameters.g) = (5.0, 0.0);
+    (parameters.q0, parameters.w0) = (0.023, 3.2);
+    (parameters.p0, parameters.v0) = (-1.46, -0.21);
+    let options = |method, until, tolerance| Options {
+        method,
+        ..Options::dop853(until, tolerance)
+    };
+    let (_, [exact, _]) = cranked(&mechanism, &options(Method::Dop853, 1.0, 1e-13));
+    for method in METHODS {
+        for tolerance in [1e-6, 1e-9, 1e-10, 1e-12] {
+            let (stopped, _) = cranked(&mechanism, &options(method, 2.0, tolerance));
+            let (summary, [stops, _]) = cranked(&mechanism, &options(method, 200.0, tolerance));
+            let name = format!("{method:?} {tolerance:e}: {stops:?}");
+            assert_eq!(stops.len(), 1, "{name}");
+            assert!((stops[0] - exact[0]).abs() < 100.0 * tolerance, "{name}");
+            let crept = summary.end.q[0] - stopped.end.q[0];
+            assert!(crept.abs() < 10.0 * tolerance, "{name}: crept by {crept:e}");
+            assert!(summary.end.v[0].abs() < 1e-15, "{name}: {}", summary.end.v);
+        }
+    }
+}
+
+/// The functions of two conditions and of an event all vanish in the dead centre, each at a time of
+/// its own by round-off.
+#[test]
+fn an_event_in_a_dead_centre_where_conditions_change_happens_once() {
+    let mut mechanism = Cranked::default();
+    let parameters = &mut mechanism.parameters;
+    (parameters.m, parameters.h) = (20.0, 1.0);
+    (parameters.q0, parameters.w0) = (1.1060144206029698, -1.712250361351148);
+    (parameters.p0, parameters.v0) = (-0.8456297555884431, -0.04514074473102481);
+    for method in METHODS {
+        for k in 0..20 {
+            let options = Options {
+                method,
+                ..Options::dop853(6.0, 10f64.powf(0.4 * f64::from(k) - 12.0))
+            };
+            let (summary, [_, dead_centres]) = cranked(&mechanism, &options);
+            let name = format!("{method:?} {:?}", options.step_control);
+            assert_eq!(dead_centres.len(), 4, "{name}: {dead_centres:?}");
+            assert_eq!(summary.passages, Some(4), "{name}");
         }
     }
 }

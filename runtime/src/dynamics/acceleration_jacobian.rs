@@ -26,6 +26,10 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
         if self.session.chart.is_some() || self.session.at_rest {
             return None;
         }
+        // What conditions that the motion slides along let through is not in the linearisation.
+        if self.conditions.decided.sliding != 0 {
+            return None;
+        }
         mechanism.terms(state, &mut self.terms);
         let squared = self.factorise_terms(mechanism, state).ok()?;
         if R > 0 && !passes(squared, window()) {

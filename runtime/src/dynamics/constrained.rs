@@ -294,7 +294,8 @@ where
         with_room::<T, _, N, R>(|| {
             let strays = self.solver.project(self.mechanism, state)?;
             let t = state.t;
-            self.solver.refuse_strayed(&self.mechanism, t, strays)
+            self.solver.refuse_strayed(&self.mechanism, t, strays)?;
+            self.solver.project_sliding(&self.mechanism, state)
         })
     }
 
@@ -306,7 +307,7 @@ where
         self.solver.verify(&self.mechanism, start, end)
     }
 
-    fn switch(&mut self, step: &Step<T, N>) -> Result<Switching<T>, DynamicsError<T>> {
+    fn switch(&mut self, step: &mut Step<T, N>) -> Result<Switching<T>, DynamicsError<T>> {
         match self.solver.switch(&self.mechanism, step)? {
             Switching::Nowhere if self.solver.changes_chart() => Ok(Switching::AtEnd),
             found => Ok(found),

@@ -9,7 +9,7 @@
 
 use super::Core;
 use super::conditions::Decided;
-use super::sliding::{ROOM, sliding};
+use super::sliding::{ROOM, sliding, striking};
 use super::switching::{Motion, settling, switching};
 use crate::crossing::noise;
 use crate::{DynamicsError, Mechanism, Real, Sides, State, Step, Switch, Switches, Switching};
@@ -89,7 +89,7 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
     pub(super) fn switch(
         &mut self,
         mechanism: &dyn Mechanism<T, N, R>,
-        step: &Step<T, N>,
+        step: &mut Step<T, N>,
     ) -> Result<Switching<T>, DynamicsError<T>> {
         match self.conditions.decided.list.is_empty() {
             true => Ok(Switching::Nowhere),
@@ -101,7 +101,7 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
     fn switch_some(
         &mut self,
         mechanism: &dyn Mechanism<T, N, R>,
-        step: &Step<T, N>,
+        step: &mut Step<T, N>,
     ) -> Result<Switching<T>, DynamicsError<T>> {
         let core = &mut *self;
         let found = switching()(&mut Attempt {
@@ -110,10 +110,13 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
             step: Some(step),
             end: step.end(),
         })?;
+        self.decide(self.conditions.decided.sides);
+        if found == Switching::AtEnd {
+            self.project_sliding(mechanism, &mut step.end)?;
+        }
         if matches!(found, Switching::Nowhere | Switching::AtEnd) {
             self.conditions.at = Some(*step.end());
         }
-        self.decide(self.conditions.decided.sides);
         Ok(found)
     }
 
@@ -141,17 +144,70 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
         let mut vectors = [[T::zero(); N]; ROOM + 1];
         let room = vectors.as_flattened_mut();
         let weights = sliding()(&slid, N, room, &mut |sides, rates, out| {
-            self.decide(sides);
-            let acceleration = self.acceleration(mechanism, state)?;
-            mechanism.switches(state, &acceleration, &mut Switches::of(sides, rates));
-            out.copy_from_slice(acceleration.as_slice());
-            Ok(())
+            self.acceleration_on(sides, mechanism, state, rates, out)
         })?;
         for (&index, weight) in slid.list().iter().zip(weights) {
             self.conditions.decided.weights[index] = weight;
         }
         self.decide(self.conditions.decided.sides);
         Ok(SVector::from(vectors[0]))
+    }
+
+    /// The acceleration with the conditions held on some sides, and the switching functions.
+    fn acceleration_on(
+        &mut self,
+        sides: Sides,
+        mechanism: &dyn Mechanism<T, N, R>,
+        state: &State<T, N>,
+        rates: &mut [Switch<T>],
+        out: &mut [T],
+    ) -> Result<(), DynamicsError<T>> {
+        self.decide(sides);
+        let acceleration = self.acceleration(mechanism, state)?;
+        mechanism.switches(state, &acceleration, &mut Switches::of(sides, rates));
+        out.copy_from_slice(acceleration.as_slice());
+        Ok(())
+    }
+
+    /// Gives the end of a step that slides along conditions the velocity for which their functions
+    /// are zero: else a body that friction holds would creep by the errors of each step.
+    #[inline]
+    pub(super) fn project_sliding(
+        &mut self,
+        mechanism: &dyn Mechanism<T, N, R>,
+        state: &mut State<T, N>,
+    ) -> Result<(), DynamicsError<T>> {
+        match self.conditions.decided.sliding {
+            0 => Ok(()),
+            _ => self.strike(mechanism, state),
+        }
+    }
+
+    #[inline(never)]
+    fn strike(
+        &mut self,
+        mechanism: &dyn Mechanism<T, N, R>,
+        state: &mut State<T, N>,
+    ) -> Result<(), DynamicsError<T>> {
+        let slid = self.conditions.decided.slid(state.t)?;
+        let mut vectors = [[T::zero(); N]; ROOM + 1];
+        let (mut v, room) = (state.v, vectors.as_flattened_mut());
+        striking()(&slid, v.as_mut_slice(), room, &mut |sides, rates, out| {
+            self.acceleration_on(sides, mechanism, state, rates, out)
+        })?;
+        self.decide(self.conditions.decided.sides);
+        let off = |v: SVector<T, N>| {
+            let mut values = [Switch::default(); Sides::ROOM];
+            let mut out = Switches::of(self.conditions.decided.sides, &mut values);
+            mechanism.switches(&State { v, ..*state }, &SVector::zeros(), &mut out);
+            let sum = |sum: T, &index: &usize| sum + values[index].value.abs();
+            slid.list().iter().fold(T::zero(), sum)
+        };
+        // Forces that hardly hold anything tell no direction.
+        if off(v) < off(state.v) {
+            state.v = v;
+        }
+        Ok(())
     }
 }
 

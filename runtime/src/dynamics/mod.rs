@@ -41,6 +41,7 @@ mod switching;
 mod turns;
 mod vanishing_gradient;
 mod verify;
+mod verify_energy;
 
 pub use constrained::{ConstrainedSystem, ConstraintError, Rank};
 pub use public_solver::Solver;

@@ -1,8 +1,8 @@
 //! Motion along the zero of a switching function that both sides push it back to.
 //!
 //! In:  the accelerations with the condition held on either side.
-//! Out: the mean of them along which the function stays zero; when one side no longer
-//!      pushes back.
+//! Out: the mean of them along which the function stays zero; the velocity for which it is
+//!      zero.
 //!
 //! Dry friction that holds a body, `force -F*sign(der(x)) on x`, is of this kind: the
 //! weight of each side says how much of the friction acts. Several conditions are taken
@@ -11,7 +11,7 @@
 //! Source: Filippov, Differential Equations with Discontinuous Righthand Sides (1988),
 //! section 4.
 
-use crate::linalg::column;
+use crate::linalg::{add_scaled, column};
 use crate::once::compiled_once;
 use crate::{DynamicsError, Real, Sides, Switch};
 
@@ -69,31 +69,64 @@ impl Slid {
         vectors: &mut [T],
         accelerate: Accelerate<'_, T>,
     ) -> Result<Weights<T>, DynamicsError<T>> {
-        let (below, above) = vectors.split_at_mut(n);
+        let weights = self.weigh(n, vectors, accelerate, |function| function.rate)?;
+        let (acceleration, changes) = vectors.split_at_mut(n);
+        self.add(&weights, changes, acceleration);
+        Ok(weights)
+    }
+
+    /// Changes a velocity so that the functions are zero, as an impulse of the forces that hold
+    /// them there does.
+    pub(crate) fn strike<T: Real>(
+        &self,
+        velocity: &mut [T],
+        vectors: &mut [T],
+        accelerate: Accelerate<'_, T>,
+    ) -> Result<(), DynamicsError<T>> {
+        let n = velocity.len();
+        let weights = self.weigh(n, vectors, accelerate, |function| function.value)?;
+        self.add(&weights, &vectors[n..], velocity);
+        Ok(())
+    }
+
+    /// The weights with which the conditions' changes of the acceleration make up for what the
+    /// functions are off. Writes the acceleration below zero, then those changes.
+    fn weigh<T: Real>(
+        &self,
+        n: usize,
+        vectors: &mut [T],
+        accelerate: Accelerate<'_, T>,
+        off: fn(Switch<T>) -> T,
+    ) -> Result<Weights<T>, DynamicsError<T>> {
+        let (below, changes) = vectors.split_at_mut(n);
         let mut rates = [Switch::default(); Sides::ROOM];
         accelerate(self.below, &mut rates, below)?;
         // Row `j`: how the rate of function `j` changes with each weight; what it lacks.
         let mut table = [[T::zero(); ROOM + 1]; ROOM];
         for (row, &j) in table.iter_mut().zip(self.list()) {
-            row[self.count] = -rates[j].rate;
+            row[self.count] = -off(rates[j]);
         }
-        for (i, &index) in self.list().iter().enumerate() {
+        for (i, (&index, change)) in self.list().iter().zip(changes.chunks_mut(n)).enumerate() {
             let mut one = self.below;
             one.hold(index as u32, true);
             let mut changed = [Switch::default(); Sides::ROOM];
-            accelerate(one, &mut changed, &mut above[i * n..(i + 1) * n])?;
+            accelerate(one, &mut changed, change)?;
+            for (above, below) in change.iter_mut().zip(&*below) {
+                *above -= *below;
+            }
             for (row, &j) in table.iter_mut().zip(self.list()) {
                 row[i] = changed[j].rate - rates[j].rate;
             }
         }
-        let weights = solve(&mut table, self.count);
-        for (j, sum) in below.iter_mut().enumerate() {
-            let held = *sum;
-            for (i, weight) in weights[..self.count].iter().enumerate() {
-                *sum += (above[i * n + j] - held) * *weight;
-            }
+        Ok(solve(&mut table, self.count))
+    }
+
+    /// Adds weighted changes to a vector.
+    fn add<T: Real>(&self, weights: &Weights<T>, changes: &[T], sum: &mut [T]) {
+        let n = sum.len();
+        for (weight, change) in weights[..self.count].iter().zip(changes.chunks(n)) {
+            add_scaled(sum, *weight, change);
         }
-        Ok(weights)
     }
 }
 
@@ -142,4 +175,10 @@ compiled_once! {
     pub(super) fn sliding<T>:
         fn(&Slid, usize, &mut [T], Accelerate<'_, T>) -> Result<Weights<T>, DynamicsError<T>> =
         |slid, n, vectors, accelerate| slid.slide(n, vectors, accelerate);
+}
+compiled_once! {
+    /// [`Slid::strike`].
+    pub(super) fn striking<T>:
+        fn(&Slid, &mut [T], &mut [T], Accelerate<'_, T>) -> Result<(), DynamicsError<T>> =
+        |slid, velocity, vectors, accelerate| slid.strike(velocity, vectors, accelerate);
 }

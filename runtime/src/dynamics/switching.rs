@@ -16,7 +16,7 @@
 //! 137–165 (discontinuity locking).
 
 use super::conditions::{Aim, Burst, Decided};
-use crate::crossing::{Left, NODES, SAME_TIME, Samples, first_crossing, nodes, zero};
+use crate::crossing::{Left, NODES, SAME_TIME, Samples, first_crossing, nodes, told, zero};
 use crate::once::compiled_once;
 use crate::{Discontinuity, DynamicsError, Real, Sides, Switch, Switches, Switching, Watched};
 
@@ -24,6 +24,9 @@ use crate::{Discontinuity, DynamicsError, Real, Sides, Switch, Switches, Switchi
 const REFINEMENTS: u32 = 3;
 /// Switching functions that are sampled at once: the room for more has to be cleared.
 const AT_ONCE: usize = 8;
+/// A side that pushes less than this part of the other one, in units of what functions are off by,
+/// is about to push the other way: so well is it known when another condition ceases to hold.
+const TAKES_OVER: f64 = 100.0;
 /// Changes of conditions that follow one another within this part of an attempt at a step count as
 /// getting nowhere.
 const HARDLY_LATER: f64 = 1e-6;
@@ -178,9 +181,11 @@ impl<T: Real> dyn Motion<T> + '_ {
             *push = found.rate * side;
         }
         // Where the motion slides along another function that vanishes with this one, neither
-        // side pushes.
+        // side pushes. Where this one takes over what another no longer holds, its own side is about
+        // to push.
         let least = self.decided().round_off(index).rate;
-        let [leaves, returns] = [pushes[0] < -least, pushes[1] > least];
+        let about = least.max(pushes[1] * self.noise() * T::from_f64(TAKES_OVER));
+        let [leaves, returns] = [pushes[0] < about, pushes[1] > least];
         if leaves && returns {
             self.decided().sliding |= 1 << index;
         }
@@ -246,11 +251,18 @@ impl<T: Real> dyn Motion<T> + '_ {
         index: usize,
         samples: Samples<T>,
     ) -> Result<Option<T>, DynamicsError<T>> {
-        let ends = self.ends();
+        let (ends, told) = (self.ends(), told(self.noise()));
         let (size, rate) = (samples.size(), T::zero());
         let decided = self.decided();
         decided.take_note(index, Switch { value: size, rate });
         let round_off = decided.round_off(index).value;
+        // A function that vanishes with one that is slid along: between the ends it is the error of
+        // the step.
+        let [first, last] = [samples.values[0], samples.values[NODES - 1]];
+        let vanishes = first.abs().max(last.abs()) <= round_off;
+        if decided.sliding != 0 && vanishes && size <= told * decided.sizes[index].value {
+            return Ok(None);
+        }
         let (side, sides) = (decided.side(index), decided.sides);
         let released = decided.released >> index & 1 == 1;
         let condition = &decided.list[index];

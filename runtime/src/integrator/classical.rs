@@ -86,7 +86,7 @@ impl<T: Real, const N: usize> Rk4<T, N> {
         &mut self,
         system: &mut Y,
     ) -> Result<Option<T>, DynamicsError<T>> {
-        let again = match system.switch(&self.step)? {
+        let again = match system.switch(&mut self.step)? {
             Switching::Nowhere => return Ok(None),
             Switching::AtEnd => {
                 self.forget();

@@ -156,7 +156,7 @@ impl<T: Real, const N: usize> Steps<T, N> {
         let mut bound = bound;
         loop {
             self.advance(method, system, &acceleration, (bound, inside))?;
-            match system.switch(&self.step)? {
+            match system.switch(&mut self.step)? {
                 Switching::Nowhere => break,
                 Switching::AtEnd => {
                     self.fresh = false;

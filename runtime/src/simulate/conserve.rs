@@ -121,7 +121,7 @@ where
         self.system.verify(start, end)
     }
 
-    fn switch(&mut self, step: &Step<T, N>) -> Result<Switching<T>, DynamicsError<T>> {
+    fn switch(&mut self, step: &mut Step<T, N>) -> Result<Switching<T>, DynamicsError<T>> {
         self.system.switch(step)
     }
 

@@ -15,9 +15,10 @@
 //! All of that is over times and values, and compiled once for mechanisms of all sizes.
 
 use super::SimulateError;
-use crate::crossing::{Left, NODES, SAME_TIME, Samples, first_crossing, nodes, noise, zero};
+use crate::crossing::{Left, NODES, SAME_TIME, Samples, first_crossing, nodes, noise, told, zero};
 use crate::linalg::column;
 use crate::once::compiled_once;
+use crate::pace::Pace;
 use crate::{
     Direction, DynamicsError, Event, Occurrence, OtherBranch, Probe, Real, State, Step, Watched,
 };
@@ -42,7 +43,8 @@ pub(crate) struct Events<T> {
     sides: [T; ROOM],
     /// How large the functions are in the step at hand and in those shortly before.
     sizes: [T; ROOM],
-    /// What they are off by, relative to that.
+    pace: Pace<T>,
+    /// What they are off by, relative to their sizes.
     noise: T,
     /// When each event happens next within the step at hand.
     next: [Option<Next<T>>; ROOM],
@@ -93,6 +95,7 @@ impl<T: Real> Events<T> {
             events: &[],
             sides: [T::zero(); ROOM],
             sizes: [T::zero(); ROOM],
+            pace: Pace::new(),
             noise: noise(tolerance),
             next: [None; ROOM],
         }
@@ -184,10 +187,15 @@ impl<T: Real> Events<T> {
             *values = along.values(self.events, t, On::Interpolant)?;
         }
         let values_of = |index: usize| column(|node| sampled[node][index]);
+        let left = self.pace.observe(along.ends.1 - along.ends.0);
         for index in 0..self.events.len() {
             let values: [T; NODES] = values_of(index);
-            self.observe_size(index, Samples { times, values }.size());
+            self.observe_size(index, left, Samples { times, values }.size());
             let values = column(|node| self.at_end(along.ends, index, times[node], values[node]));
+            if self.is_held(index, &values) {
+                self.next[index] = None;
+                continue;
+            }
             let samples = Samples { times, values };
             let side = &mut self.sides[index];
             if values[0].abs() > T::from_f64(CLEARLY) * self.sizes[index] && *side == T::zero() {
@@ -205,14 +213,23 @@ impl<T: Real> Events<T> {
         Ok(())
     }
 
-    /// Takes note of how large a function is in a step.
-    fn observe_size(&mut self, index: usize, size: T) {
-        let known = &mut self.sizes[index];
+    /// Takes note of how large a function is in a step that leaves this part of what was known.
+    fn observe_size(&mut self, index: usize, left: T, size: T) {
+        let known = self.sizes[index];
         // What is held at zero is as large as it was before.
-        if size > *known * T::EPSILON * T::from_f64(AT_ZERO) {
-            // After a long step a short one sees nothing but what is near zero.
-            *known = size.max(*known * T::from_f64(0.5));
+        if size > known * told(self.noise) {
+            self.sizes[index] = size.max(known * left);
         }
+    }
+
+    /// Whether a function that was zero is held there throughout a step, as the velocity of what
+    /// dry friction holds: what it does between the ends is the error of the step.
+    fn is_held(&self, index: usize, values: &[T; NODES]) -> bool {
+        let least = self.sizes[index] * told(self.noise);
+        self.sides[index] == T::zero()
+            && values[0] == T::zero()
+            && values[NODES - 1] == T::zero()
+            && values.iter().all(|value| value.abs() <= least)
     }
 
     /// A value of a function within a step, or zero at one of its ends where it is zero but for
@@ -322,7 +339,8 @@ impl<T: Real> Events<T> {
         let noise = self.noise * self.sizes[index];
         let to = along.ends.1;
         let mut value = |t| along.value(self.events, t, On::Interpolant, index);
-        let mut pause = T::EPSILON * T::from_f64(SAME_TIME) * from.abs().max(to.abs());
+        let same_time = T::EPSILON * T::from_f64(SAME_TIME) * from.abs().max(to.abs());
+        let mut pause = same_time.max(told(self.noise) * self.pace.longest());
         while from + pause + pause < to {
             let (begin, end) = (from + pause, from + pause + pause);
             if let Some(side) = Samples::of(&mut value, (begin, end))?.leaves_zero(noise) {
