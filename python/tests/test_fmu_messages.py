@@ -88,14 +88,18 @@ class Fmu:
     def begun(self, kind):
         """An instance whose motion has begun."""
         x = self.made(kind)
+        self.begin(x)
+        return x
+
+    def begin(self, x, stop=None):
+        """Begins the motion of an instance, which may have to end at a time."""
+        experiment = 0, c_double(), c_double(), stop is not None, c_double(stop or 0.0)
         if self.version == 2:
-            assert self.call("SetupExperiment", x, 0, c_double(), c_double(), 0, c_double()) == 0
+            assert self.call("SetupExperiment", x, *experiment) == 0
             assert self.call("EnterInitializationMode", x) == 0
         else:
-            none = c_double()
-            assert self.call("EnterInitializationMode", x, 0, none, c_double(), 0, none) == 0
+            assert self.call("EnterInitializationMode", x, *experiment) == 0
         assert self.call("ExitInitializationMode", x) == 0
-        return x
 
 
 def variables(description):
@@ -136,6 +140,12 @@ def directional(fmu, x, unknown, known):
 def step(fmu, x, t, length):
     out = [one(c_int) for _ in range(3)] + [one(c_double)] if fmu.version == 3 else []
     return fmu.call("DoStep", x, c_double(t), c_double(length), 1, *out)
+
+
+def step_beyond_the_end(fmu, x):
+    fmu.begin(x, stop=0.15)
+    assert step(fmu, x, 0.0, 0.1) == 0
+    return step(fmu, x, 0.1, 0.1)
 
 
 def state_call(fmu, x, what, *more):
@@ -183,6 +193,7 @@ CALLS = [
         lambda f, x: f.call("SetContinuousStates", x, one(c_double), SIZE),
     ),
     ("`DoStep` from another time", 1, True, lambda f, x: step(f, x, 0.5, 0.1)),
+    ("`DoStep` beyond the stop time of the experiment", 1, False, step_beyond_the_end),
     ("to take over the state NULL", 1, True, lambda f, x: state_call(f, x, "SetState", None)),
     ("to keep a state at NULL", 1, True, lambda f, x: state_call(f, x, "GetState", None)),
     ("to write down a state that isn't there", 1, True, serialized),

@@ -42,6 +42,7 @@ pub fn description(mechanism: &Mechanism, about: &About) -> String {
 {capabilities}  <UnitDefinitions>
 {units}  </UnitDefinitions>
   <LogCategories>
+    <Category name="logStatusDiscard"/>
     <Category name="logStatusError"/>
   </LogCategories>
   <DefaultExperiment startTime="0" stopTime="10" tolerance="1e-9"/>
@@ -56,14 +57,17 @@ pub fn description(mechanism: &Mechanism, about: &About) -> String {
 
 /// What an FMU can do.
 fn capabilities(about: &About) -> String {
-    let (both, derivatives) = match about.version {
+    let (both, own, derivatives) = match about.version {
         Version::Two => (
             "canNotUseMemoryManagementFunctions=\"true\" canGetAndSetFMUstate=\"true\" \
              canSerializeFMUstate=\"true\"",
+            "",
             " providesDirectionalDerivative=\"true\"",
         ),
         Version::Three => (
             "canGetAndSetFMUState=\"true\" canSerializeFMUState=\"true\"",
+            // States that have left the constraints are found there.
+            " needsCompletedIntegratorStep=\"true\"",
             " providesDirectionalDerivatives=\"true\"",
         ),
     };
@@ -74,7 +78,7 @@ fn capabilities(about: &About) -> String {
     };
     let identifier = about.identifier;
     format!(
-        "  <ModelExchange modelIdentifier=\"{identifier}\" {both}{derivatives}/>\n  \
+        "  <ModelExchange modelIdentifier=\"{identifier}\" {both}{own}{derivatives}/>\n  \
          <CoSimulation modelIdentifier=\"{identifier}\" \
          canHandleVariableCommunicationStepSize=\"true\" {both}{derivatives}/>\n"
     )
@@ -111,9 +115,12 @@ fn listed(version: Version, variables: &[Variable]) -> String {
             unit => format!(" unit=\"{}\"", escaped(unit)),
         };
         let own = unit + &more.unwrap_or_default();
-        let (name, docs) = (escaped(&variable.name), escaped(&variable.docs));
-        let known =
-            format!("name=\"{name}\" valueReference=\"{reference}\" description=\"{docs}\" {kind}");
+        let name = escaped(&variable.name);
+        let docs = match &*variable.docs {
+            "" => String::new(),
+            docs => format!("description=\"{}\" ", escaped(docs)),
+        };
+        let known = format!("name=\"{name}\" valueReference=\"{reference}\" {docs}{kind}");
         let _never_fails = match version {
             Version::Two => writeln!(
                 text,

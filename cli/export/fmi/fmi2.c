@@ -39,17 +39,22 @@ typedef struct {
 
 typedef fmi2CallbackFunctions Host;
 
-static void tell_host(const Host *host, const char *name, fmi2Status status, const char *message)
-{
-    if (host->logger)
-        host->logger(host->componentEnvironment, name, status, "logStatusError", "%s",
-                     message);
-}
-
 /* How a call ended, by the names that `instance.c` has for it. */
 typedef fmi2Status Status;
 #define OK fmi2OK
+#define DISCARD fmi2Discard
 #define ERROR fmi2Error
+
+static const char *category(Status status)
+{
+    return status < ERROR ? "logStatusDiscard" : "logStatusError";
+}
+
+static void tell_host(const Host *host, const char *name, fmi2Status status, const char *message)
+{
+    if (host->logger)
+        host->logger(host->componentEnvironment, name, status, category(status), "%s", message);
+}
 
 #include "instance.c"
 
@@ -96,9 +101,7 @@ EXPORT fmi2Status fmi2SetupExperiment(fmi2Component component, fmi2Boolean with_
                                       fmi2Real stop)
 {
     EXPECT(component, INSTANTIATED);
-    (void)with_stop;
-    (void)stop;
-    return set_up(x, start, with_tolerance, tolerance);
+    return set_up(x, start, with_stop ? &stop : NULL, with_tolerance ? &tolerance : NULL);
 }
 
 EXPORT fmi2Status fmi2EnterInitializationMode(fmi2Component component)

@@ -54,17 +54,23 @@ typedef struct {
     fmi3InstanceEnvironment environment;
 } Host;
 
+/* How a call ended, by the names that `instance.c` has for it. */
+typedef fmi3Status Status;
+#define OK fmi3OK
+#define DISCARD fmi3Discard
+#define ERROR fmi3Error
+
+static const char *category(Status status)
+{
+    return status < ERROR ? "logStatusDiscard" : "logStatusError";
+}
+
 static void tell_host(const Host *host, const char *name, fmi3Status status, const char *message)
 {
     (void)name;
     if (host->log)
-        host->log(host->environment, status, "logStatusError", message);
+        host->log(host->environment, status, category(status), message);
 }
-
-/* How a call ended, by the names that `instance.c` has for it. */
-typedef fmi3Status Status;
-#define OK fmi3OK
-#define ERROR fmi3Error
 
 #include "instance.c"
 
@@ -152,9 +158,7 @@ EXPORT fmi3Status fmi3EnterInitializationMode(fmi3Instance instance, fmi3Boolean
                                               fmi3Boolean with_stop, fmi3Float64 stop)
 {
     EXPECT(instance, INSTANTIATED);
-    (void)with_stop;
-    (void)stop;
-    if (set_up(x, start, with_tolerance, tolerance) != OK)
+    if (set_up(x, start, with_stop ? &stop : NULL, with_tolerance ? &tolerance : NULL) != OK)
         return fmi3Error;
     x->phase = INITIALISING;
     return fmi3OK;

@@ -1,6 +1,6 @@
 /* An instance of an FMU over bricard.h: the same for all mechanisms and for all versions of
    FMI. It is included by `fmi2.c` or `fmi3.c`, which declare what the standard has, say who
-   is told of errors (Host, tell_host) and how a call ended (Status, OK, ERROR), and give the
+   is told of errors (Host, tell_host) and how a call ended (Status, OK, DISCARD, ERROR), and give the
    functions below their names.
 
    A file that says which mechanism it is includes that one: MECHANISM_CREATE,
@@ -41,7 +41,7 @@ typedef struct {
     bricard *m;
     int phase;
     int is_cosimulation, logging, placed, drifted;
-    double t, begin;
+    double t, begin, stop;
     /* How many there are: coordinates; those and states of the first order; constraint
        equations; … */
     size_t f, n, r, parameters, inputs, outputs, events;
@@ -194,6 +194,7 @@ static bricard_status begin_anew(Instance *x)
     x->phase = INSTANTIATED;
     x->placed = x->drifted = 0;
     x->t = x->begin = 0.0;
+    x->stop = INFINITY;
     if (x->u)
         memcpy(x->u, INPUTS, x->inputs * sizeof(double));
     return MECHANISM_CREATE(&x->m);
@@ -270,14 +271,15 @@ static Instance *instantiate(const char *name, const char *token, int is_cosimul
     return make(name, is_cosimulation, logging, host);
 }
 
-/* When the motion begins, and the tolerance of steps if one is given. */
-static Status set_up(Instance *x, double start, int with_tolerance, double tolerance)
+/* When the motion begins, when it ends and the tolerance of steps, if these are given. */
+static Status set_up(Instance *x, double start, const double *stop, const double *tolerance)
 {
     bricard_options options;
     x->t = x->begin = start;
-    if (with_tolerance) {
+    x->stop = stop ? *stop : INFINITY;
+    if (tolerance) {
         TRY(x, bricard_get_options(x->m, &options));
-        options.rtol = options.atol = tolerance;
+        options.rtol = options.atol = *tolerance;
         TRY(x, bricard_set_options(x->m, &options));
     }
     return OK;
@@ -497,7 +499,7 @@ static Status directional(Instance *x, const unsigned int unknown[], size_t unkn
 /* ---- snapshots ------------------------------------------------------------------------------ */
 
 /* The head of what is written of an instance, before the numbers of the mechanism. */
-enum { HEAD = 5 };
+enum { HEAD = 6 };
 
 static Status become(Instance *x, const Instance *y)
 {
@@ -512,6 +514,7 @@ static Status become(Instance *x, const Instance *y)
     x->drifted = y->drifted;
     x->t = y->t;
     x->begin = y->begin;
+    x->stop = y->stop;
     return OK;
 }
 
@@ -555,6 +558,7 @@ static Status write_down(Instance *x, const Instance *y, void *bytes, size_t siz
     numbers[2] = y->drifted;
     numbers[3] = y->t;
     numbers[4] = y->begin;
+    numbers[5] = y->stop;
     next = numbers + HEAD;
     memcpy(next, y->q, x->f * sizeof(double));
     next += x->f;
@@ -588,6 +592,7 @@ static Status read_back(Instance *x, const void *bytes, size_t size, void **stat
     y->drifted = (int)numbers[2];
     y->t = numbers[3];
     y->begin = numbers[4];
+    y->stop = numbers[5];
     next = numbers + HEAD;
     memcpy(y->q, next, x->f * sizeof(double));
     next += x->f;
@@ -633,6 +638,13 @@ static Status check_drift(Instance *x)
     return OK;
 }
 
+/* Evaluates a quantity at the state that an integrator tries: where there is none, it may try
+   another one. */
+static Status evaluate_trial(Instance *x, int quantity, size_t size)
+{
+    return evaluate(x, quantity, size) < 0 ? complain(x, DISCARD, bricard_message(x->m)) : OK;
+}
+
 /* Refuses a number of states or indicators that is another. */
 static Status counted(Instance *x, size_t count, size_t wanted)
 {
@@ -659,9 +671,12 @@ static Status get_states(Instance *x, double states[], size_t count)
 
 static Status get_derivatives(Instance *x, double derivatives[], size_t count)
 {
+    Status status;
     if (counted(x, count, x->f + x->n) != OK || place(x) != OK)
         return ERROR;
-    TRY(x, evaluate(x, BRICARD_ACCELERATION, x->n));
+    status = evaluate_trial(x, BRICARD_ACCELERATION, x->n);
+    if (status != OK)
+        return status;
     memcpy(derivatives, x->v, x->f * sizeof(double));
     memcpy(derivatives + x->f, x->room, x->n * sizeof(double));
     return OK;
@@ -679,11 +694,13 @@ static Status get_nominals(Instance *x, double nominals[], size_t count)
 
 static Status get_indicators(Instance *x, double indicators[], size_t count)
 {
+    Status status;
     if (counted(x, count, x->events) != OK || place(x) != OK)
         return ERROR;
-    TRY(x, evaluate(x, BRICARD_EVENT, x->events));
-    memcpy(indicators, x->room, count * sizeof(double));
-    return OK;
+    status = evaluate_trial(x, BRICARD_EVENT, x->events);
+    if (status == OK)
+        memcpy(indicators, x->room, count * sizeof(double));
+    return status;
 }
 
 /* ---- co-simulation -------------------------------------------------------------------------- */
@@ -692,6 +709,8 @@ static Status go_on(Instance *x, double t, double step)
 {
     if (!(step >= 0.0) || fabs(t - x->t) > 1e-9 * (1.0 + fabs(t)))
         return complain(x, ERROR, "a step begins where the last one ended, and goes on");
+    if (t + step - x->stop > 1e-9 * (1.0 + fabs(x->stop)))
+        return complain(x, ERROR, "a step goes beyond the stop time of the experiment");
     TRY(x, bricard_step(x->m, t + step - x->t));
     TRY(x, bricard_state(x->m, &x->t, x->q, x->v, x->n));
     return OK;

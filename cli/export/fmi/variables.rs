@@ -87,11 +87,15 @@ fn starts(mechanism: &Mechanism) -> Vec<Variable> {
     });
     let velocities = numbered().map(|(i, q)| {
         let kind = Kind::Parameter(start(mechanism, i, true));
-        let (of, unit) = match i < freedoms {
-            true => (format!("der({})", q.name), per_second(&q.unit, 1)),
-            false => (q.name.clone(), q.unit.clone()),
+        let (of, unit, what) = match i < freedoms {
+            true => (
+                format!("der({})", q.name),
+                per_second(&q.unit, 1),
+                "start of the velocity of",
+            ),
+            false => (q.name.clone(), q.unit.clone(), "start of"),
         };
-        made(format!("start({of})"), q, unit, "start of", kind)
+        made(format!("start({of})"), q, unit, what, kind)
     });
     positions.chain(velocities).collect()
 }
