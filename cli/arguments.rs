@@ -134,7 +134,7 @@ pub struct New {
     /// The name of the crate and of its folder
     pub name: String,
     /// Depend on the checkout of bricard in this folder [default: the one that this command
-    /// was built from, if it is still there, else the published packages]
+    /// was built from or is called in, if it is there, else the published packages]
     #[arg(long, value_name = "DIR")]
     pub path: Option<PathBuf>,
 }
@@ -285,7 +285,8 @@ pub struct Simulate {
     #[arg(long)]
     pub across_switches: bool,
     /// Distance of the rows in time, in seconds [default: a row after each step;
-    /// T/1000 for a plot by an adaptive method]
+    /// for a plot by an adaptive method T/1000, or 0.05 s if that is less and the rows are for
+    /// the plot alone]
     #[arg(long, value_name = "dt", allow_hyphen_values = true, value_parser = formula::number)]
     pub every: Option<f64>,
     /// Change a parameter, or hold an input at a value; several values with commas between

@@ -162,12 +162,12 @@ impl Record {
         Ok(match self.count {
             0 => "\nno rows were computed, and nothing was written".to_string(),
             1 => format!(
-                "\nthe row of t = {} s is kept: {}",
+                "\nthe row of t = {} s was written: {}",
                 self.last,
                 places.join(", ")
             ),
             count => format!(
-                "\nthe {count} rows computed before, up to t = {} s, are kept: {}",
+                "\nthe {count} rows computed before, up to t = {} s, were written: {}",
                 self.last,
                 places.join(", ")
             ),

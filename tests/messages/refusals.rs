@@ -135,7 +135,7 @@ pub const CASES: &[Case] = &[
         "at t = 0.… s only 1 of the 2 constraint equations is independent: `L1*cos(q1) + \
          L2*cos(q2) = q3` (line …), `L1*sin(q1) = L2*sin(q2)` (line …), and the form \
          `multipliers` cannot pass a singular position; use the form `reduced` or `full`\nthe … \
-         rows computed before, up to t = 0.… s, are kept: run.csv",
+         rows computed before, up to t = 0.… s, were written: run.csv",
     ),
     (
         "Checkpoint",
