@@ -396,6 +396,16 @@ impl<'a, T: Real> Frame<'a, T> {
         self.smallest
     }
 
+    /// The smallest pivot of a constraint row that is not in the block.
+    pub(crate) fn smallest_independent(&self) -> T {
+        let Order { rows, columns, .. } = &self.order;
+        let pivots = rows.iter().zip(&**columns).take(self.order.independent);
+        let constraints = pivots.filter(|(row, _)| **row < self.order.constraints);
+        constraints.fold(T::one(), |least: T, (row, column)| {
+            least.min(self.entry(*row, *column).abs())
+        })
+    }
+
     /// The size of the determinant, zero also where it is so small that it counts as zero.
     pub(crate) fn volume(&self) -> T {
         let mut size = T::one();

@@ -14,7 +14,7 @@ use super::sheet::{Sheet, Shift};
 use crate::Real;
 use crate::equations::At;
 use crate::linalg::{Eliminated, Workspace, add_scaled, norm, solve_upper};
-use crate::tolerance::{critical, resolved, round_off};
+use crate::tolerance::{critical, near_dependent, resolved, round_off};
 
 /// Evaluations that lead to the critical configuration.
 const CENTRINGS: usize = 8;
@@ -69,6 +69,10 @@ impl<T: Real> Sheet<'_, T> {
         }
         let cross = self.cross(state, like, direction, best, workspace)?;
         let search = self.search_critical((state, like), direction, best, &cross, workspace)?;
+        // Another loop, which the state is farther from, becomes singular there, too.
+        if self.frame.smallest_independent() < near_dependent() {
+            return self.vanishes_at_centre(state, like, direction, best, workspace);
+        }
         let Search { aside, unsure, .. } = search;
         let most = self.largest_residual(Shift::NONE);
         let bound = critical::<T>() * cross.round_off;
