@@ -20,6 +20,7 @@ mod sizes;
 mod stabilisation;
 mod starts;
 mod stops;
+mod together;
 mod tolerances;
 
 /// The seed of all random trials.

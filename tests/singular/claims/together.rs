@@ -1,0 +1,51 @@
+//! Several loops that become singular at the same instant.
+
+use bricard_runtime::{Form, Interface, Method, Options, assemble, simulate};
+use bricard_singular::descriptions::three_folds::ThreeFolds;
+
+const N: usize = 7;
+const R: usize = 6;
+
+/// `tan(p/2)/tan(r/2)` of an antiparallelogram with links of these lengths.
+fn ratio(short: f64, long: f64) -> f64 {
+    (short - long) / (short + long)
+}
+
+/// By how much the half angles of crank and rocker miss a ratio.
+fn off(crank: f64, rocker: f64, ratio: f64) -> f64 {
+    let ((s, c), (sin, cos)) = ((crank / 2.0).sin_cos(), (rocker / 2.0).sin_cos());
+    (s * cos - ratio * sin * c).abs()
+}
+
+/// Each loop is on the sheet where it began, and each fold was passed once: far from it some of the
+/// loops seem regular.
+#[test]
+fn loops_of_unlike_masses_that_fold_together_stay_on_their_sheets() {
+    let mut mechanism = ThreeFolds::default();
+    let methods = [Method::Dp5, Method::Radau5];
+    for (w, heavy) in [(-5.621, 5.0), (-6.266, 5.0), (-5.847, 50.0), (-7.3, 50.0)] {
+        mechanism.parameters.m2 = heavy;
+        let mut start = mechanism.start();
+        start.v[0].value = w;
+        let start = assemble::<f64, _, N, R>(&mechanism, &start, 0.0).expect("a start");
+        for method in methods {
+            for tolerance in [1e-8, 1e-9, 1e-10, 1e-11] {
+                for form in [Form::Reduced, Form::Full] {
+                    let name = format!("{w} {heavy} {method:?} {tolerance:e} {form:?}");
+                    let mut options = Options::dop853(2.0, tolerance);
+                    (options.method, options.settings.form) = (method, form);
+                    let done = simulate::<_, _, N, R>(&mechanism, &start, &options, &mut [])
+                        .unwrap_or_else(|failure| panic!("{name}: {failure}"));
+                    let [p0, _, r0, c1, r1, _, r2] = done.end.q.into();
+                    let wrong = [
+                        off(p0, r0, ratio(0.499, 1.209)),
+                        (r1 - r0).abs().max(c1.abs()),
+                        off(r1, r2, ratio(0.781, 1.233)),
+                    ];
+                    assert!(wrong.iter().all(|off| *off < 1e-9), "{name}: {wrong:?}");
+                    assert_eq!(done.passages, Some(done.events), "{name}");
+                }
+            }
+        }
+    }
+}
