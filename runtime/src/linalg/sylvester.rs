@@ -4,7 +4,8 @@
 //! Out: the number of negative eigenvalues of the symmetric part of the one in bases in which
 //!      the other is the identity, by Sylvester's law of inertia.
 //!
-//! Near a singular configuration the two are nearly multiples of each other.
+//! Near a singular configuration the two are nearly multiples of each other, and these are the
+//! eigenvalues that change their signs. Those of two rows are taken themselves.
 
 use super::add_scaled;
 use super::block::{Block, FEW, LONG, Next, make_diagonal, swap};
@@ -50,6 +51,19 @@ impl<T: Real> Block<'_, T> {
     }
 }
 
+/// How many eigenvalues of a block of two rows are negative in bases in which another one is this
+/// diagonal: by their product and their sum. The block of two sheets at very different distances is
+/// no multiple of another, and its symmetric part may have signs that it has not.
+fn count_negative_of_pair<T: Real>(here: &[T], diagonal: &[T]) -> usize {
+    let product = here[0] * here[3] - here[1] * here[2];
+    let sum = here[0] * diagonal[1] + here[3] * diagonal[0];
+    match (product < T::zero(), sum < T::zero()) {
+        (true, _) => 1,
+        (false, true) => 2,
+        (false, false) => 0,
+    }
+}
+
 /// How many eigenvalues change their sign from the second block to the first one, which are
 /// used up.
 #[inline(always)]
@@ -63,6 +77,9 @@ fn count_changes<T: Real>(
     let scales = &mut pivots[..size];
     if scales.contains(&T::zero()) {
         return 0;
+    }
+    if size == FEW {
+        return count_negative_of_pair(here, scales);
     }
     scales.iter_mut().for_each(|x| *x = T::one() / x.sqrt());
     let symmetric = &mut there[..size * size];

@@ -183,16 +183,22 @@ impl<T: Real> Sheet<'_, T> {
             known
                 .or_else(|| self.rate(&search, (elimination.t, elimination.determinant), workspace))
         };
+        // Signs are compared with those at the end that is farther from singular configurations:
+        // two positions next to one, each nearer to that of another loop, tell nothing together.
+        let base = match from.logarithm >= to.logarithm {
+            true => &from.signs,
+            false => &to.signs,
+        };
         let [first, last] = [rate(rates[0], from), rate(rates[1], to)];
         let middle = first.zip(last).and_then(|(first, last)| {
             self.find_double(&search, (from, to), [first, last], workspace)
         });
         match middle {
             Some(middle) => {
-                self.find_between(&search, (from, &middle), false, found, workspace);
-                self.find_between(&search, (&middle, to), false, found, workspace);
+                self.find_between(&search, base, (from, &middle), false, found, workspace);
+                self.find_between(&search, base, (&middle, to), false, found, workspace);
             }
-            None => self.find_between(&search, (from, to), false, found, workspace),
+            None => self.find_between(&search, base, (from, to), false, found, workspace),
         }
         Some(())
     }
@@ -249,16 +255,19 @@ impl<T: Real> Sheet<'_, T> {
     }
 
     /// Passages between two times: one for each loop that becomes singular, unless several do so
-    /// at once. The interval is divided in the middle if `halve` says so.
+    /// at once. Signs are those compared with a base. The interval is divided in the middle if
+    /// `halve` says so.
     fn find_between(
         &mut self,
         search: &Search<'_, T>,
+        base: &DeterminantSigns<'_, T>,
         (from, to): (&Elimination<'_, T>, &Elimination<'_, T>),
         halve: bool,
         found: &mut Found<T>,
         workspace: &Workspace<'_, T>,
     ) {
-        let changes = to.signs.changes_from(&from.signs, workspace);
+        let changed = [from, to].map(|end| end.signs.changes_from(base, workspace));
+        let changes = changed[0].abs_diff(changed[1]);
         let (width, half) = (to.t - from.t, T::from_f64(0.5));
         let at_once = search.step.at_once();
         let middle = match changes {
@@ -280,7 +289,7 @@ impl<T: Real> Sheet<'_, T> {
             };
             for (from, to) in [(from, &middle), (&middle, to)] {
                 let slow = to.t - from.t > width * half;
-                self.find_between(search, (from, to), slow, found, workspace);
+                self.find_between(search, base, (from, to), slow, found, workspace);
             }
         });
     }
