@@ -99,7 +99,7 @@ fn a_run_that_fails_is_named_and_the_others_go_on() {
     for part in [
         "1 of 2 runs ended early",
         "L1 = 0.5: at t = 0.87",
-        "are kept",
+        "were written",
     ] {
         assert!(ran.err.contains(part), "no `{part}` in {}", ran.err);
     }
