@@ -3,7 +3,6 @@
 use crate::events::Diary;
 use bricard_runtime::{Interface, Method, Options, Summary, Whole, assemble, simulate};
 use bricard_switching::cranked::Cranked;
-
 use bricard_switching::drawn::Drawn;
 use bricard_switching::jointed::Jointed;
 use bricard_switching::jointed_reduced::JointedReduced;

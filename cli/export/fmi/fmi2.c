@@ -45,18 +45,13 @@ typedef fmi2Status Status;
 #define DISCARD fmi2Discard
 #define ERROR fmi2Error
 
-static const char *category(Status status)
-{
-    return status < ERROR ? "logStatusDiscard" : "logStatusError";
-}
+#include "instance.c"
 
 static void tell_host(const Host *host, const char *name, fmi2Status status, const char *message)
 {
     if (host->logger)
         host->logger(host->componentEnvironment, name, status, category(status), "%s", message);
 }
-
-#include "instance.c"
 
 /* ---- life ----------------------------------------------------------------------------------- */
 

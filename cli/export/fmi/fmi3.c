@@ -60,10 +60,7 @@ typedef fmi3Status Status;
 #define DISCARD fmi3Discard
 #define ERROR fmi3Error
 
-static const char *category(Status status)
-{
-    return status < ERROR ? "logStatusDiscard" : "logStatusError";
-}
+#include "instance.c"
 
 static void tell_host(const Host *host, const char *name, fmi3Status status, const char *message)
 {
@@ -71,8 +68,6 @@ static void tell_host(const Host *host, const char *name, fmi3Status status, con
     if (host->log)
         host->log(host->environment, status, category(status), message);
 }
-
-#include "instance.c"
 
 /* ---- life ----------------------------------------------------------------------------------- */
 

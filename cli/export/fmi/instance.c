@@ -1,7 +1,7 @@
 /* An instance of an FMU over bricard.h: the same for all mechanisms and for all versions of
    FMI. It is included by `fmi2.c` or `fmi3.c`, which declare what the standard has, say who
-   is told of errors (Host, tell_host) and how a call ended (Status, OK, DISCARD, ERROR), and give the
-   functions below their names.
+   is told of errors (Host, tell_host) and how a call ended (Status, OK, DISCARD, ERROR), and
+   give the functions below their names.
 
    A file that says which mechanism it is includes that one: MECHANISM_CREATE,
    MECHANISM_TOKEN, and MECHANISM_INPUTS, what inputs are told to be until they are set. */
@@ -108,6 +108,14 @@ static int place_of(const Instance *x, unsigned int reference, size_t *place)
     }
     return kind;
 }
+
+/* The category of the log that a status is told in. */
+static const char *category(Status status)
+{
+    return status < ERROR ? "logStatusDiscard" : "logStatusError";
+}
+
+static void tell_host(const Host *host, const char *name, Status status, const char *message);
 
 static Status complain(Instance *x, Status status, const char *message)
 {
