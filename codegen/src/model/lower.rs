@@ -11,7 +11,7 @@ use super::scope::{Entry, Kind};
 use super::symbol::{Graph, Symbol};
 use crate::diagnostic::{Diagnostic, Diagnostics, Span};
 use crate::expr::ExprId;
-use crate::syntax::ast::{Item, ItemKind};
+use crate::syntax::ast::{Energy, Item, ItemKind};
 use crate::syntax::messages::REMOVE;
 use crate::syntax::{self, Model};
 use rustc_hash::FxHashMap;
@@ -44,7 +44,7 @@ pub fn lower(
         lowering.changes_fit(model);
         let again = begun(model, constants, frozen, folder);
         lowering.unread(again, &model.items, &library);
-        lowering.whole(model);
+        lowering.whole(model, &library);
     }
     let Lowering {
         mut evaluator,
@@ -94,23 +94,34 @@ fn library(model: &Model) -> Rc<[Item]> {
     }
 }
 
+/// Whether a statement, or one of a loop or a part, gives kinetic energy.
+fn gives_kinetic_energy(item: &Item) -> bool {
+    match &item.kind {
+        ItemKind::Energy(kind, _) => *kind == Energy::Kinetic,
+        ItemKind::For(_, body) => body.iter().any(gives_kinetic_energy),
+        ItemKind::Part(part) => part.items.iter().any(gives_kinetic_energy),
+        _ => false,
+    }
+}
+
 impl Lowering<'_> {
     /// What concerns the mechanism as a whole.
-    fn whole(&mut self, model: &Model) {
+    fn whole(&mut self, model: &Model, library: &[Item]) {
         let (name, at) = (&model.name, model.name.span);
         let declared = |item: &Item| matches!(item.kind, ItemKind::Coordinate { state: false, .. });
+        let wrong = self.evaluator.diagnostics.error_count() > 0;
+        // What has been left out because it is wrong isn't missing.
+        let written = || model.items.iter().chain(library).any(gives_kinetic_energy);
         if !model.items.iter().any(declared) && self.mechanism.freedoms() == 0 {
             let error = Diagnostic::error(at, format!("`{}` has no coordinates", name.text));
             self.report::<()>(error.help("declare what moves, for example `coord q1: rad;`"));
+        } else if self.mechanism.kinetic.is_empty() && !(wrong && written()) {
+            let error = Diagnostic::error(at, format!("`{}` has no kinetic energy", name.text));
+            self.report::<()>(error.help("write for example `kinetic 1/2*J*der(q1)^2;`"));
         }
         self.states_without_rate();
         self.unread_functions();
         if self.evaluator.diagnostics.error_count() > 0 {
-            return;
-        }
-        if self.mechanism.kinetic.is_empty() {
-            let error = Diagnostic::error(at, format!("`{}` has no kinetic energy", name.text));
-            self.report::<()>(error.help("write for example `kinetic 1/2*J*der(q1)^2;`"));
             return;
         }
         let entries = self.evaluator.scope.close(0);

@@ -50,6 +50,8 @@ pub struct Named {
     /// Start entries: coordinate, whether the velocity is meant; with the number of parts
     /// around.
     pub starts: FxHashMap<(u32, bool), (Span, usize)>,
+    /// Whether a loop ended at what is wrong, so that not every target is known.
+    pub cut_short: bool,
 }
 
 impl Lowering<'_> {

@@ -99,6 +99,9 @@ impl Lowering<'_> {
 
     /// Refuses states whose rates are not given.
     pub fn states_without_rate(&mut self) {
+        if self.named.cut_short {
+            return;
+        }
         let m = &self.mechanism;
         let states = m.coordinates.iter().enumerate().skip(m.freedoms());
         let lacking = states.filter(|(i, _)| !self.named.rates.contains_key(&(*i as u32)));

@@ -13,6 +13,9 @@ use crate::syntax::ast::{
 };
 use crate::syntax::messages::{REMOVE, RENAME};
 
+/// Events that a run has room for.
+const ROOM: usize = 64;
+
 impl Lowering<'_> {
     /// Reads statements that aren't declarations.
     pub fn statements(&mut self, items: &[Item]) {
@@ -128,6 +131,7 @@ impl Lowering<'_> {
             self.indices.pop();
             self.evaluator.scope.close(mark);
             if self.evaluator.diagnostics.error_count() > errors {
+                self.named.cut_short = true;
                 return None;
             }
         }
@@ -384,6 +388,10 @@ impl Lowering<'_> {
     }
 
     fn event(&mut self, name: &Name, value: &Expr, direction: Crossing, span: Span) -> Option<()> {
+        if self.mechanism.events.len() == ROOM {
+            let message = format!("there are more than {ROOM} events, for which a run has no room");
+            return self.report(Diagnostic::error(span, message).help("leave some out"));
+        }
         let scalar = self.evaluator.scalar(value, "an event function")?;
         self.without_acceleration(value, &[scalar], "an event function")?;
         let full = self.indexed(&name.text);

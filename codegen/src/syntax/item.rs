@@ -207,6 +207,7 @@ impl Cursor<'_> {
             let help = "an output of a vector or an array has a column for each element";
             return Err(self.fail(error.help(help)));
         }
+        self.size_in_brackets(&name, word)?;
         let size = self.size(&format!(
             "an array is written `{word} {}[3] = …;`",
             name.text
@@ -233,6 +234,16 @@ impl Cursor<'_> {
             unit,
             value,
         }))
+    }
+
+    /// Refuses `y(3)`.
+    fn size_in_brackets(&mut self, name: &Name, word: &str) -> Parsed<()> {
+        let size = match &self.peek_at(1).kind {
+            TokenKind::Number(size) if self.at_symbol("(") => size.clone(),
+            _ => return Ok(()),
+        };
+        let error = Diagnostic::error(self.span(), "the size of an array stands in brackets");
+        Err(self.fail(error.help(format!("write `{word} {}[{size}]`", name.text))))
     }
 
     /// Reads `[K]` or `[i in 0..K]` if it comes next.
@@ -272,6 +283,7 @@ impl Cursor<'_> {
         };
         let name = self.name(&format!("the {what}"), word)?;
         let mut size = None;
+        self.size_in_brackets(&name, word)?;
         if self.take_symbol("[") {
             size = Some(self.expression()?);
             let help = format!("an array of {what}s is written `{word} theta[3]: rad;`");
@@ -355,6 +367,7 @@ impl Cursor<'_> {
             return Err(self.fail(error.help(help)));
         }
         if !self.take_word("on") {
+            self.comparison_stands_after_if()?;
             let preposition = match &self.peek_at(1).kind {
                 TokenKind::Word(word) => word != "on",
                 _ => false,

@@ -142,8 +142,9 @@ impl Cursor<'_> {
             return Err(self.unexpected("a whole exponent", HELP));
         };
         self.advance();
-        if parenthesis {
-            self.expect_symbol(")", HELP)?;
+        if parenthesis && !self.take_symbol(")") {
+            let help = "the exponents of a unit are whole numbers: `m^2`, `m^-1`";
+            return Err(self.unexpected("`)`", help));
         }
         Ok(sign * exponent)
     }
