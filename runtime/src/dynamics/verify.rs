@@ -182,8 +182,13 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
         if !stays {
             return Err(self.want_chart(mechanism, end.t));
         }
-        self.session.trial.chart = Some(chart).filter(|_| comes_near);
-        self.session.trial.inspection_chart = Some(chart).filter(|_| self.is_long(start, end));
+        // Charts are large, so that none is copied in vain.
+        if comes_near {
+            self.session.trial.chart = Some(chart);
+        }
+        if self.is_long(start, end) {
+            self.session.trial.inspection_chart = Some(chart);
+        }
         Ok(())
     }
 

@@ -5,12 +5,16 @@
 //!      the other is the identity, by Sylvester's law of inertia.
 //!
 //! Near a singular configuration the two are nearly multiples of each other, and these are the
-//! eigenvalues that change their signs. Those of two rows are taken themselves.
+//! eigenvalues that change their signs. Those of two and three rows are taken themselves.
 
 use super::add_scaled;
 use super::block::{Block, FEW, LONG, Next, make_diagonal, swap};
 use super::workspace::Workspace;
 use crate::Real;
+
+/// Near-dependent rows up to which eigenvalues are counted by the characteristic polynomial, whose
+/// coefficients lose too many digits for more.
+const SEVERAL: usize = 3;
 
 impl<T: Real> Block<'_, T> {
     /// How many eigenvalues change their sign from another block to this one: the
@@ -51,17 +55,32 @@ impl<T: Real> Block<'_, T> {
     }
 }
 
-/// How many eigenvalues of a block of two rows are negative in bases in which another one is this
-/// diagonal: by their product and their sum. The block of two sheets at very different distances is
-/// no multiple of another, and its symmetric part may have signs that it has not.
-fn count_negative_of_pair<T: Real>(here: &[T], diagonal: &[T]) -> usize {
-    let product = here[0] * here[3] - here[1] * here[2];
-    let sum = here[0] * diagonal[1] + here[3] * diagonal[0];
-    match (product < T::zero(), sum < T::zero()) {
-        (true, _) => 1,
-        (false, true) => 2,
-        (false, false) => 0,
+/// How many eigenvalues of a block of two or three rows are negative in bases in which another one
+/// is this diagonal: the changes of sign among the coefficients of its characteristic polynomial at
+/// `-λ` (Descartes' rule of signs). The block of sheets at very different distances is no multiple
+/// of another, and its symmetric part may have signs that it has not.
+fn count_negative_of_few<T: Real>(size: usize, here: &[T], diagonal: &[T]) -> usize {
+    let entry = |i: usize, j: usize| here[i * size + j] / diagonal[i];
+    let minor = |[i, j]: [usize; 2], [k, l]: [usize; 2]| {
+        entry(i, k) * entry(j, l) - entry(i, l) * entry(j, k)
+    };
+    let principal = |rows| minor(rows, rows);
+    let mut coefficients = [entry(0, 0) + entry(1, 1), principal([0, 1]), T::zero()];
+    if size == SEVERAL {
+        coefficients = [
+            coefficients[0] + entry(2, 2),
+            coefficients[1] + principal([0, 2]) + principal([1, 2]),
+            entry(0, 0) * principal([1, 2]) - entry(0, 1) * minor([1, 2], [0, 2])
+                + entry(0, 2) * minor([1, 2], [0, 1]),
+        ];
     }
+    let mut negative = false;
+    let mut changes = 0;
+    for coefficient in coefficients.into_iter().filter(|x| *x != T::zero()) {
+        changes += usize::from(negative != (coefficient < T::zero()));
+        negative = coefficient < T::zero();
+    }
+    changes
 }
 
 /// How many eigenvalues change their sign from the second block to the first one, which are
@@ -78,8 +97,8 @@ fn count_changes<T: Real>(
     if scales.contains(&T::zero()) {
         return 0;
     }
-    if size == FEW {
-        return count_negative_of_pair(here, scales);
+    if size == FEW || size == SEVERAL {
+        return count_negative_of_few(size, here, scales);
     }
     scales.iter_mut().for_each(|x| *x = T::one() / x.sqrt());
     let symmetric = &mut there[..size * size];

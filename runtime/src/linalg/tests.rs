@@ -241,6 +241,19 @@ fn elimination_gives_coordinates_that_satisfy_the_rows() {
     assert!((matrix * x - right).amax() < 1e-12);
 }
 
+/// A matrix as a block.
+fn block<'a, const K: usize>(
+    matrix: &SMatrix<f64, K, K>,
+    workspace: &Workspace<'a, f64>,
+) -> Block<'a, f64> {
+    let mut block = Block::zeros(K, workspace);
+    for i in 0..K {
+        let row = matrix.row(i).transpose();
+        block.row_mut(i).copy_from_slice(row.as_slice());
+    }
+    block
+}
+
 #[test]
 fn the_smallest_pivot_of_a_block_is_that_of_complete_pivoting() {
     const K: usize = 7;
@@ -253,11 +266,7 @@ fn the_smallest_pivot_of_a_block_is_that_of_complete_pivoting() {
         });
         let (mut numbers, mut indices) = ([0.0; 2 * K * K], [0; 2 * K]);
         let workspace = Workspace::new(&mut numbers, &mut [], &mut indices);
-        let mut block = Block::zeros(K, &workspace);
-        for i in 0..K {
-            let row = chain.row(i).transpose();
-            block.row_mut(i).copy_from_slice(row.as_slice());
-        }
+        let mut block = block(&chain, &workspace);
         let pivots = chain.full_piv_lu().u().diagonal().abs();
         let (found, exact) = (block.smallest(&workspace), pivots.min().min(1.0));
         assert!(
@@ -287,18 +296,40 @@ fn changes_of_sign_of_long_blocks_are_counted() {
         });
         let (mut numbers, mut indices) = ([0.0; 5 * K * K], [0; 2 * K]);
         let workspace = Workspace::new(&mut numbers, &mut [], &mut indices);
-        let [before, after] = [chain, behind].map(|matrix| {
-            let mut block = Block::zeros(K, &workspace);
-            for i in 0..K {
-                let row = matrix.row(i).transpose();
-                block.row_mut(i).copy_from_slice(row.as_slice());
-            }
-            block
-        });
+        let [before, after] = [chain, behind].map(|matrix| block(&matrix, &workspace));
         let changes = after.sign_changes_from(&before, &workspace);
         assert_eq!(changes, TURNED, "round {round}");
         assert_eq!(before.sign_changes_from(&before, &workspace), 0, "{round}");
     }
+}
+
+/// Counts the changes of sign between blocks of `K` rows at random distances of many orders of
+/// magnitude from the sheets that they cross.
+fn check_signs_at_unlike_distances<const K: usize>(random: &mut Matrices) {
+    for round in 0..200 {
+        let before: SMatrix<f64, K, K> = random.matrix();
+        let basis: SMatrix<f64, K, K> = random.matrix();
+        let eigenvalues = SVector::<f64, K>::from_fn(|_, _| {
+            random.number().signum() * 10.0_f64.powf(-3.0 * random.number().abs())
+        });
+        let Some(inverse) = basis.try_inverse().filter(|it| it.amax() < 10.0) else {
+            continue;
+        };
+        let after = before * basis * SMatrix::from_diagonal(&eigenvalues) * inverse;
+        let (mut numbers, mut indices) = ([0.0; 64], [0; 8]);
+        let workspace = Workspace::new(&mut numbers, &mut [], &mut indices);
+        let [before, after] = [before, after].map(|matrix| block(&matrix, &workspace));
+        let negative = eigenvalues.iter().filter(|it| **it < 0.0).count();
+        let changes = after.sign_changes_from(&before, &workspace);
+        assert_eq!(changes, negative, "round {round} of {K} rows");
+    }
+}
+
+#[test]
+fn changes_of_sign_are_counted_at_unlike_distances() {
+    let mut random = Matrices::seeded(SEED);
+    check_signs_at_unlike_distances::<2>(&mut random);
+    check_signs_at_unlike_distances::<3>(&mut random);
 }
 
 /// Eliminates a random system of `N` rows, the last constraint row of which is nearly a

@@ -179,26 +179,29 @@ impl<T: Real> Sheet<'_, T> {
             true => (&own, &other),
             false => (&other, &own),
         };
-        let mut rate = |known: Option<T>, elimination: &Elimination<'_, T>| {
-            known
-                .or_else(|| self.rate(&search, (elimination.t, elimination.determinant), workspace))
-        };
         // Signs are compared with those at the end that is farther from singular configurations:
         // two positions next to one, each nearer to that of another loop, tell nothing together.
-        let base = match from.logarithm >= to.logarithm {
-            true => &from.signs,
-            false => &to.signs,
+        let (base, beside, is_first) = match from.logarithm >= to.logarithm {
+            true => (&from.signs, &to.signs, true),
+            false => (&to.signs, &from.signs, false),
         };
-        let [first, last] = [rate(rates[0], from), rate(rates[1], to)];
-        let middle = first.zip(last).and_then(|(first, last)| {
-            self.find_double(&search, (from, to), [first, last], workspace)
-        });
+        let changes = beside.changes_from(base, workspace);
+        let ends = match is_first {
+            true => [(from, 0), (to, changes)],
+            false => [(from, changes), (to, 0)],
+        };
+        let middle = match changes {
+            0 => self.find_double(&search, (from, to), rates, workspace),
+            _ => None,
+        };
         match middle {
             Some(middle) => {
-                self.find_between(&search, base, (from, &middle), false, found, workspace);
-                self.find_between(&search, base, (&middle, to), false, found, workspace);
+                let changes = middle.signs.changes_from(base, workspace);
+                let middle = (&middle, changes);
+                self.find_between(&search, base, [ends[0], middle], false, found, workspace);
+                self.find_between(&search, base, [middle, ends[1]], false, found, workspace);
             }
-            None => self.find_between(&search, base, (from, to), false, found, workspace),
+            None => self.find_between(&search, base, ends, false, found, workspace),
         }
         Some(())
     }
@@ -254,20 +257,19 @@ impl<T: Real> Sheet<'_, T> {
         Some(change / (t - beside))
     }
 
-    /// Passages between two times: one for each loop that becomes singular, unless several do so
-    /// at once. Signs are those compared with a base. The interval is divided in the middle if
-    /// `halve` says so.
+    /// Passages between two times, at which so many signs differ from those of a base: one for each
+    /// loop that becomes singular, unless several do so at once. The interval is divided in the
+    /// middle if `halve` says so.
     fn find_between(
         &mut self,
         search: &Search<'_, T>,
         base: &DeterminantSigns<'_, T>,
-        (from, to): (&Elimination<'_, T>, &Elimination<'_, T>),
+        [(from, changes_from), (to, changes_to)]: [(&Elimination<'_, T>, usize); 2],
         halve: bool,
         found: &mut Found<T>,
         workspace: &Workspace<'_, T>,
     ) {
-        let changed = [from, to].map(|end| end.signs.changes_from(base, workspace));
-        let changes = changed[0].abs_diff(changed[1]);
+        let changes = changes_to.abs_diff(changes_from);
         let (width, half) = (to.t - from.t, T::from_f64(0.5));
         let at_once = search.step.at_once();
         let middle = match changes {
@@ -287,9 +289,11 @@ impl<T: Real> Sheet<'_, T> {
                 self.record(search, (from, to), changes, found, workspace);
                 return;
             };
-            for (from, to) in [(from, &middle), (&middle, to)] {
-                let slow = to.t - from.t > width * half;
-                self.find_between(search, base, (from, to), slow, found, workspace);
+            let changes = middle.signs.changes_from(base, workspace);
+            let middle = (&middle, changes);
+            for ends in [[(from, changes_from), middle], [middle, (to, changes_to)]] {
+                let slow = ends[1].0.t - ends[0].0.t > width * half;
+                self.find_between(search, base, ends, slow, found, workspace);
             }
         });
     }
@@ -326,18 +330,19 @@ impl<T: Real> Sheet<'_, T> {
     }
 
     /// An elimination beyond a singular configuration, between two others of equal signs, if there
-    /// is one. It is sought by the cubic polynomial through the determinants and their rates, and
-    /// then by bisection.
+    /// is one. It is sought by the cubic polynomial through the determinants and their rates, as
+    /// far as they are known, and then by bisection.
     fn find_double<'b>(
         &mut self,
         search: &Search<'_, T>,
         (from, to): (&Elimination<'_, T>, &Elimination<'_, T>),
-        rates: [T; 2],
+        rates: [Option<T>; 2],
         workspace: &Workspace<'b, T>,
     ) -> Option<Elimination<'b, T>> {
-        if from.signs.negative != to.signs.negative {
-            return None;
-        }
+        let mut rate = |known: Option<T>, end: &Elimination<'_, T>| {
+            known.or_else(|| self.rate(search, (end.t, end.determinant), workspace))
+        };
+        let rates = [rate(rates[0], from)?, rate(rates[1], to)?];
         let sign = if from.signs.negative {
             -T::one()
         } else {
@@ -348,7 +353,7 @@ impl<T: Real> Sheet<'_, T> {
         let rates = rates.map(|rate| sign * rate * span);
         let (mut x, lowest) = lowest_of_cubic(ends, rates)?;
         let is_deep = lowest <= ends[0].min(ends[1]) * T::from_f64(DIP);
-        if !is_deep || to.signs.changes_from(&from.signs, workspace) > 0 {
+        if !is_deep {
             return None;
         }
         let (mut a, mut b) = (T::zero(), T::one());

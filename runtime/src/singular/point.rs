@@ -9,7 +9,7 @@ use super::product::Product;
 use super::sheet::PointView;
 use crate::equations::At;
 use crate::{Real, State};
-use nalgebra::{SMatrix, SVector};
+use nalgebra::{ArrayStorage, SMatrix, SVector};
 
 /// A state on the sheet, and the sheet's geometry there.
 #[derive(Clone, Debug)]
@@ -57,7 +57,8 @@ impl<T: Real, const N: usize> Point<T, N> {
     pub(crate) fn zeros() -> Self {
         Self {
             state: State::default(),
-            tangent: SMatrix::zeros(),
+            // Made in place: it is large, and nalgebra's own would be copied here.
+            tangent: SMatrix::from_array_storage(ArrayStorage([[T::zero(); N]; N])),
             drift: SVector::zeros(),
             particular: SVector::zeros(),
             met: [Met::far(); N],
