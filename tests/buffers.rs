@@ -10,7 +10,10 @@ use bricard::slider_crank::SliderCrank;
 use bricard::slider_crank_driven::SliderCrankDriven;
 use bricard::watt_six_bar::WattSixBar;
 use bricard_runtime::nalgebra::SVector;
-use bricard_runtime::{Linearised, Mechanism, Position, State, Terms};
+use bricard_runtime::{
+    Linearised, Mechanism, Method, Options, Position, SimulateError, State, Stepper, Terms, Whole,
+    assemble,
+};
 use bricard_testkit::Random;
 
 /// Buffers of all kinds.
@@ -84,4 +87,49 @@ fn a_buffer_may_have_been_of_another_mechanism() {
         &ScissorLift::default(),
         &WattSixBar::default(),
     ]);
+}
+
+/// Cuts off steps after every number of evaluations, and goes on with the same stepper.
+fn goes_on_when_cut_off<const N: usize, const R: usize>(
+    mechanism: &dyn Whole<f64, N, R>,
+    options: &Options<f64>,
+) {
+    const SPAN: f64 = 0.02;
+    let start = assemble(mechanism, &mechanism.start(), 0.0).expect("the start assembles");
+    let stepper = || -> Stepper<f64, N, R> {
+        Stepper::new(options.method, options.step_control, options.settings)
+            .expect("the step control is usable")
+    };
+    let name = format!("{} {:?}", mechanism.structure().name, options.method);
+    let mut exact = start;
+    let needed = stepper().step_within(mechanism, &mut exact, SPAN, u32::MAX);
+    for most in 0..needed.unwrap_or_else(|error| panic!("{name}: {error}")) {
+        let (mut cut, mut state) = (stepper(), start);
+        let ended = cut.step_within(mechanism, &mut state, SPAN, most);
+        let too_much = matches!(ended, Err(SimulateError::TooMuchWork { .. }));
+        assert!(too_much, "{name}, {most}: {ended:?}");
+        let rest = exact.t - state.t;
+        if rest > 0.0 {
+            let went_on = cut.step(mechanism, &mut state, rest);
+            assert!(went_on.is_ok(), "{name}, {most}: {went_on:?}");
+        }
+        let off = (state.q - exact.q).norm() + (state.v - exact.v).norm();
+        assert!(off < 1e-6, "{name}, {most}: {off:e}");
+    }
+}
+
+/// Generated code does not write again what is constant.
+#[test]
+fn a_stepper_that_was_cut_off_goes_on() {
+    for method in [Method::Dp5, Method::Dop853, Method::Radau5, Method::Radau9] {
+        let adaptive = Options {
+            method,
+            ..Options::dop853(1.0, 1e-9)
+        };
+        for options in [adaptive, Options::rk4(1.0, 0.002)] {
+            goes_on_when_cut_off::<3, 2>(&SliderCrank::default(), &options);
+            goes_on_when_cut_off::<5, 4>(&DoubleFourBar::default(), &options);
+            goes_on_when_cut_off::<3, 2>(&ScotchYoke::default(), &options);
+        }
+    }
 }

@@ -124,6 +124,13 @@ impl<T: Real> Samples<T> {
         values.fold(T::zero(), |most: T, x| most.max(x.abs()))
     }
 
+    /// Whether the function is zero at the beginning, but for the round-off of the time.
+    pub(crate) fn begins_at_zero(&self) -> bool {
+        let moment = T::EPSILON * T::from_f64(SAME_TIME) * self.times[0].abs();
+        let rise = (self.values[1] - self.values[0]).abs();
+        self.values[0].abs() * (self.times[1] - self.times[0]) <= rise * moment
+    }
+
     /// The side on which the function goes away from zero, if it does all the way and is
     /// beyond some noise from the beginning.
     pub(crate) fn leaves_zero(&self, noise: T) -> Option<T> {

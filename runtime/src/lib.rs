@@ -27,6 +27,7 @@ mod structure;
 mod system;
 mod table;
 mod tolerance;
+mod zeroed;
 
 pub use assembly::{AssemblyError, StartEquations, StartFault, assemble, guess, meet};
 pub use catalogue::Visitor;

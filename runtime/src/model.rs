@@ -9,6 +9,7 @@
 //! mechanism is cleared first.
 
 use crate::assembly::StartFault;
+use crate::zeroed::{spoil, zeroed};
 use crate::{Condition, Real, Sides, State, Structure, Switches};
 use core::ptr;
 use nalgebra::{SMatrix, SVector};
@@ -344,35 +345,6 @@ pub struct Partials<'a, T> {
     pub events: &'a mut [T],
 }
 
-macro_rules! zeroed {
-    ($name:ident { $($field:ident),* } $($sides:ident)?) => {
-        impl<T: Real, const N: usize, const R: usize> Default for $name<T, N, R> {
-            fn default() -> Self {
-                Self {
-                    $($field: SMatrix::zeros(),)*
-                    $($sides: Sides::FREE,)?
-                    filled: None,
-                }
-            }
-        }
-
-        impl<T: Real, const N: usize, const R: usize> $name<T, N, R> {
-            /// Whether the mechanism of a structure filled it last.
-            #[inline(always)]
-            pub fn is_filled_by(&self, structure: &'static Structure) -> bool {
-                self.filled.is_some_and(|known| ptr::eq(known, structure))
-            }
-
-            /// Becomes zeros that the mechanism of a structure is about to fill.
-            #[cold]
-            #[inline(never)]
-            pub fn clear(&mut self, structure: &'static Structure) {
-                $(self.$field.fill(T::zero());)*
-                self.filled = Some(structure);
-            }
-        }
-    };
-}
 zeroed!(Terms {
     mass,
     force,

@@ -29,6 +29,7 @@ fn main() -> Result<(), Box<dyn Error>> {
         "knotted",
         "looped",
         "parallelogram",
+        "paused",
         "placed",
         "pulsed",
         "released",

@@ -11,6 +11,7 @@ include!(concat!(env!("OUT_DIR"), "/knotted.rs"));
 include!(concat!(env!("OUT_DIR"), "/looped.rs"));
 include!(concat!(env!("OUT_DIR"), "/measured.rs"));
 include!(concat!(env!("OUT_DIR"), "/parallelogram.rs"));
+include!(concat!(env!("OUT_DIR"), "/paused.rs"));
 include!(concat!(env!("OUT_DIR"), "/placed.rs"));
 include!(concat!(env!("OUT_DIR"), "/pulsed.rs"));
 include!(concat!(env!("OUT_DIR"), "/released.rs"));

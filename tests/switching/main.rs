@@ -8,5 +8,6 @@ mod events;
 mod jumps;
 mod loops;
 mod measured;
+mod pieces;
 mod points;
 mod tables;

@@ -244,6 +244,15 @@ impl<T: Real> Control<T> {
         }
     }
 
+    /// Begins anew: trials at a step that failed tell nothing of the next one.
+    pub(crate) fn restart(&mut self) {
+        self.h = T::zero();
+        self.last_error = T::from_f64(REMEMBERED_ERROR);
+        self.rejected = false;
+        self.longest = T::zero();
+        self.short = 0;
+    }
+
     /// Whether a step that a singular configuration still stands in the way of is so short
     /// that shorter ones would only creep up to it, or comes after too many that were short.
     pub(crate) fn creeps(&self, h: T) -> bool {

@@ -133,8 +133,15 @@ impl<K, T: Real, const N: usize> Controlled<K, T, N> {
         K: Trial<T, N, Y>,
     {
         // Whichever method it is, the control exists once.
-        with_room::<T, _, N, N>(|| self.steps.make(&mut self.method, system, state, bound))?;
-        Ok(&self.steps.step)
+        let made =
+            with_room::<T, _, N, N>(|| self.steps.make(&mut self.method, system, state, bound));
+        match made {
+            Ok(()) => Ok(&self.steps.step),
+            Err(failure) => {
+                self.steps.restart();
+                Err(failure)
+            }
+        }
     }
 }
 
@@ -172,6 +179,15 @@ impl<T: Real, const N: usize> Steps<T, N> {
         }
         system.commit(&self.step)?;
         Ok(())
+    }
+
+    /// Begins anew after a step that failed.
+    #[cold]
+    fn restart(&mut self) {
+        self.fresh = false;
+        if let Some(adaptive) = &mut self.adaptive {
+            adaptive.control.restart();
+        }
     }
 
     /// The acceleration at the start of a step.

@@ -4,13 +4,13 @@
 //! Out: the same mechanism, and how often it was asked.
 //!
 //! Evaluations beyond the limit are spoilt: every entry that isn't zero becomes NaN, which
-//! ends every iteration within a step. Entries that are zero stay so, because nobody would
-//! write them again.
+//! ends every iteration within a step.
 
 use crate::assembly::StartFault;
+use crate::zeroed::spoil;
 use crate::{
-    Acceleration, Condition, Correction, Energy, Linearised, Mechanism, Position, Real, Start,
-    State, Structure, Switches, Terms,
+    Acceleration, Condition, Correction, Energy, Linearised, Mechanism, Pivots, Position, Real,
+    Start, State, Structure, Switches, Terms,
 };
 use core::cell::Cell;
 use nalgebra::SVector;
@@ -42,24 +42,19 @@ impl<'a, M: ?Sized> LimitedEvaluations<'a, M> {
         self.asked.get() > self.most
     }
 
-    /// Takes note of an evaluation and spoils it if it is one too many.
+    /// Takes note of an evaluation; whether it is one too many.
     #[inline]
-    fn count<'b, T: Real>(&self, entries: impl IntoIterator<Item = &'b mut T>) {
+    fn count(&self) -> bool {
         self.asked.set(self.asked.get().saturating_add(1));
-        if self.is_exceeded() {
-            spoil(entries);
-        }
+        self.is_exceeded()
     }
 }
 
-/// Makes everything NaN that isn't zero.
+/// Spoils what was divided by.
 #[cold]
-fn spoil<'b, T: Real>(entries: impl IntoIterator<Item = &'b mut T>) {
-    for entry in entries {
-        if *entry != T::zero() {
-            *entry = T::from_f64(f64::NAN);
-        }
-    }
+fn spoil_pivots<T: Real, const N: usize, const R: usize>(pivots: &mut Pivots<T, N, R>) {
+    spoil(&mut pivots.mass_pivots);
+    spoil(&mut pivots.row_pivots);
 }
 
 impl<M, T: Real, const N: usize, const R: usize> Mechanism<T, N, R> for LimitedEvaluations<'_, M>
@@ -72,30 +67,33 @@ where
 
     fn terms(&self, state: &State<T, N>, out: &mut Terms<T, N, R>) {
         self.mechanism.terms(state, out);
-        let rows = out.jacobian.iter_mut().chain(&mut out.bias);
-        self.count(out.mass.iter_mut().chain(&mut out.force).chain(rows));
+        if self.count() {
+            out.spoil();
+        }
     }
 
     fn acceleration(&self, state: &State<T, N>, out: &mut Acceleration<T, N, R>) -> bool {
         let provided = self.mechanism.acceleration(state, out);
-        let pivots = out.pivots.mass_pivots.iter_mut();
-        let pivots = pivots.chain(&mut out.pivots.row_pivots);
-        self.count(out.acceleration.iter_mut().chain(pivots));
+        if self.count() {
+            spoil(&mut out.acceleration);
+            spoil_pivots(&mut out.pivots);
+        }
         provided
     }
 
     fn position(&self, state: &State<T, N>, out: &mut Position<T, N, R>) {
         self.mechanism.position(state, out);
-        let rows = out.residual.iter_mut().chain(&mut out.drift);
-        let rows = rows.chain(out.jacobian.iter_mut());
-        self.count(out.mass.iter_mut().chain(rows));
+        if self.count() {
+            out.spoil();
+        }
     }
 
     fn correction(&self, state: &State<T, N>, out: &mut Correction<T, N, R>) -> bool {
         let provided = self.mechanism.correction(state, out);
-        let pivots = out.pivots.mass_pivots.iter_mut();
-        let pivots = pivots.chain(&mut out.pivots.row_pivots);
-        self.count(out.residual.iter_mut().chain(pivots));
+        if self.count() {
+            spoil(&mut out.residual);
+            spoil_pivots(&mut out.pivots);
+        }
         provided
     }
 
@@ -111,8 +109,8 @@ where
     ) -> &'static [Condition] {
         let conditions = self.mechanism.switches(state, acceleration, out);
         // No room asks for the conditions alone.
-        if !out.values.is_empty() {
-            self.count(out.values.iter_mut().map(|switch| &mut switch.value));
+        if !out.values.is_empty() && self.count() {
+            spoil(out.values.iter_mut().map(|switch| &mut switch.value));
         }
         conditions
     }
@@ -130,11 +128,9 @@ where
     ) -> bool {
         let mechanism = self.mechanism;
         let provided = mechanism.linearised(state, acceleration, multiplier, out);
-        let by_velocity = out.force_by_velocity.iter_mut();
-        let by_velocity = by_velocity.chain(out.row_by_velocity.iter_mut());
-        let by_position = out.force_by_position.iter_mut();
-        let by_position = by_position.chain(out.row_by_position.iter_mut());
-        self.count(by_position.chain(by_velocity));
+        if self.count() {
+            out.spoil();
+        }
         provided
     }
 }

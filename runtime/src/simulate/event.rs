@@ -6,7 +6,8 @@
 //! Changes of sign are looked for on the step's interpolant ([`crate::crossing`]), also
 //! those that come in pairs. The zero is then found by Brent's method to the round-off of
 //! time, with the function evaluated on states that are back on the constraints. An event
-//! whose function is zero at the start of a run has not happened; one that reaches zero
+//! whose function is zero at the start of a run, but for round-off, has not happened, so that a run
+//! may go on from where an event ended another; one that reaches zero
 //! has, even if it turns back, and so has one that comes to zero but for round-off, as the
 //! velocity of a block that dry friction stops. It happens again once its function has been
 //! clear of zero: one that only touches zero, or stays there for a while, changes its sign as
@@ -23,13 +24,19 @@ use crate::{
     Direction, DynamicsError, Event, Occurrence, OtherBranch, Probe, Real, State, Step, Watched,
 };
 
+use nalgebra::SVector;
+
 /// Events a mechanism may have.
-const ROOM: usize = 64;
+pub(super) const ROOM: usize = 64;
 /// A function is clear of zero beyond this part of its size in a step, even if it goes back.
 const CLEARLY: f64 = 1e-6;
 
 /// At the ends of a step a function is zero within this many units of the round-off of its size.
 const AT_ZERO: f64 = 32.0;
+
+/// States are the same to this power of round-off, relative to their largest coordinate and velocity
+/// (2e-12 for `f64`): beside singular configurations a quarter of the digits is not told.
+const SAME_STATE: f64 = 0.75;
 
 /// Writes the event functions of a mechanism at a state.
 pub(super) type Functions<'a, T, const N: usize> = &'a dyn Fn(&State<T, N>, &mut [T]);
@@ -37,7 +44,7 @@ pub(super) type Functions<'a, T, const N: usize> = &'a dyn Fn(&State<T, N>, &mut
 /// Watches the event functions of a mechanism.
 #[derive(Clone, Debug)]
 pub(crate) struct Events<T> {
-    events: &'static [Event],
+    pub(super) events: &'static [Event],
     /// The signs that the functions had last; zero where they have not been clear of zero
     /// since.
     sides: [T; ROOM],
@@ -47,12 +54,19 @@ pub(crate) struct Events<T> {
     /// What they are off by, relative to their sizes.
     noise: T,
     /// When each event happens next within the step at hand.
-    next: [Option<Next<T>>; ROOM],
+    pub(super) next: [Option<Next<T>>; ROOM],
+    /// What round-off of the state at the start makes of the functions; zero once they were clear
+    /// of zero.
+    round_off: [T; ROOM],
+    /// Whether the next step is the first of the run.
+    begins: bool,
+    /// Whether the run ends with the events that are left.
+    pub(super) ends: bool,
 }
 
 /// When an event happens.
 #[derive(Clone, Copy, Debug)]
-struct Next<T> {
+pub(crate) struct Next<T> {
     /// On the step's interpolant.
     t: T,
     /// Times between which the function changes its sign.
@@ -84,8 +98,8 @@ type Write<'a, T> = dyn FnMut(T, On, &mut [T]) -> Result<(), DynamicsError<T>> +
 /// The event functions along a step.
 pub(crate) struct Along<'a, T> {
     /// Where the step begins and ends.
-    ends: (T, T),
-    write: &'a mut Write<'a, T>,
+    pub(super) ends: (T, T),
+    pub(super) write: &'a mut Write<'a, T>,
 }
 
 impl<T: Real> Events<T> {
@@ -98,6 +112,9 @@ impl<T: Real> Events<T> {
             pace: Pace::new(),
             noise: noise(tolerance),
             next: [None; ROOM],
+            round_off: [T::zero(); ROOM],
+            begins: false,
+            ends: false,
         }
     }
 
@@ -124,10 +141,16 @@ impl<T: Real> Events<T> {
         };
         self.events = events;
         let values = along.values(events, state.t, On::Interpolant);
-        self.sides = values.map_err(SimulateError::Observe)?;
-        for side in &mut self.sides {
-            *side = side.sign();
+        let values = values.map_err(SimulateError::Observe)?;
+        self.round_off = round_off(functions, state, &values);
+        let known = values.iter().zip(&self.round_off);
+        for (side, (value, round_off)) in self.sides.iter_mut().zip(known) {
+            *side = match value.abs() <= *round_off {
+                true => T::zero(),
+                false => value.sign(),
+            };
         }
+        (self.begins, self.ends) = (true, false);
         Ok(())
     }
 
@@ -198,7 +221,11 @@ impl<T: Real> Events<T> {
             }
             let samples = Samples { times, values };
             let side = &mut self.sides[index];
-            if values[0].abs() > T::from_f64(CLEARLY) * self.sizes[index] && *side == T::zero() {
+            if self.begins && samples.begins_at_zero() {
+                *side = T::zero();
+            }
+            let clear = self.round_off[index].max(T::from_f64(CLEARLY) * self.sizes[index]);
+            if values[0].abs() > clear && *side == T::zero() {
                 *side = values[0].sign();
             }
             let samples = match *side == T::zero() {
@@ -209,7 +236,11 @@ impl<T: Real> Events<T> {
                 Some(samples) => self.search(along, index, samples)?,
                 None => None,
             };
+            if self.sides[index] != T::zero() {
+                self.round_off[index] = T::zero();
+            }
         }
+        self.begins = false;
         Ok(())
     }
 
@@ -259,11 +290,12 @@ impl<T: Real> Events<T> {
             return Ok(None);
         };
         let t = self.polished(along, (index, next))?;
-        let left = self.rest(along, index, next.t.max(t))?;
-        self.next[index] = match left {
-            Some(samples) => self.search(along, index, samples)?,
-            None => None,
-        };
+        self.next[index] = None;
+        if !self.ends
+            && let Some(samples) = self.rest(along, index, next.t.max(t))?
+        {
+            self.next[index] = self.search(along, index, samples)?;
+        }
         let rising = next.rising;
         Ok(Some(Happened { index, t, rising }))
     }
@@ -311,7 +343,7 @@ impl<T: Real> Events<T> {
 
     /// The time of an occurrence on states that are back on the constraints, if the
     /// function changes its sign there, too.
-    fn polished(
+    pub(super) fn polished(
         &self,
         along: &mut Along<'_, T>,
         (index, next): (usize, Next<T>),
@@ -336,7 +368,7 @@ impl<T: Real> Events<T> {
         from: T,
     ) -> Result<Option<Samples<T>>, DynamicsError<T>> {
         self.sides[index] = T::zero();
-        let noise = self.noise * self.sizes[index];
+        let noise = self.round_off[index].max(self.noise * self.sizes[index]);
         let to = along.ends.1;
         let mut value = |t| along.value(self.events, t, On::Interpolant, index);
         let same_time = T::EPSILON * T::from_f64(SAME_TIME) * from.abs().max(to.abs());
@@ -369,7 +401,7 @@ impl<T: Real> Along<'_, T> {
     }
 
     /// One of them.
-    fn value(
+    pub(super) fn value(
         &mut self,
         events: &[Event],
         t: T,
@@ -380,9 +412,37 @@ impl<T: Real> Along<'_, T> {
     }
 }
 
+/// How much the functions change, by these values, where round-off moves coordinates and velocities,
+/// one after the other: a state at which an event happened is no nearer to it.
+pub(super) fn round_off<T: Real, const N: usize>(
+    functions: Functions<'_, T, N>,
+    state: &State<T, N>,
+    values: &[T; ROOM],
+) -> [T; ROOM] {
+    let mut changes = [T::zero(); ROOM];
+    let mut observe = |moved: &State<T, N>| {
+        let mut there = [T::zero(); ROOM];
+        functions(moved, &mut there);
+        for (change, (there, here)) in changes.iter_mut().zip(there.iter().zip(values)) {
+            *change += (*there - *here).abs();
+        }
+    };
+    let largest = |x: &SVector<T, N>| x.iter().fold(T::zero(), |most: T, x| most.max(x.abs()));
+    let unit = T::EPSILON.powf(T::from_f64(SAME_STATE));
+    let [aside, faster] = [largest(&state.q) * unit, largest(&state.v) * unit];
+    for i in 0..N {
+        let (mut moved, mut hurried) = (*state, *state);
+        moved.q[i] += aside;
+        hurried.v[i] += faster;
+        observe(&moved);
+        observe(&hurried);
+    }
+    changes
+}
+
 /// The state at a time within a step; the ends are on the constraints already.
 #[inline(never)]
-fn state_at<T: Real, const N: usize>(
+pub(super) fn state_at<T: Real, const N: usize>(
     probe: &mut dyn Probe<T, N>,
     step: &Step<T, N>,
     t: T,

@@ -161,7 +161,7 @@ impl<'a, 'b, T: Real, const N: usize> Observers<'a, 'b, T, N> {
     }
 
     /// Locates the events of a step and counts them; the step up to the event at which an
-    /// observer broke off, if one did.
+    /// observer broke off, if one did. Others that happen there, too, are told before.
     #[inline(never)]
     fn occurrences(
         &mut self,
@@ -171,6 +171,7 @@ impl<'a, 'b, T: Real, const N: usize> Observers<'a, 'b, T, N> {
         count: &mut u64,
     ) -> Result<Option<Step<T, N>>, DynamicsError<T>> {
         self.events.look(functions, step)?;
+        let mut cut = None;
         while let Some(occurrence) = self.events.next(functions, probe, step)? {
             *count += 1;
             let mut flow = ControlFlow::Continue(());
@@ -179,11 +180,14 @@ impl<'a, 'b, T: Real, const N: usize> Observers<'a, 'b, T, N> {
                     flow = ControlFlow::Break(());
                 }
             }
-            if flow.is_break() {
-                return Ok(Some(step.cut(occurrence.state)));
+            if flow.is_break() && cut.is_none() {
+                let state = &occurrence.state;
+                self.events
+                    .keep_simultaneous(functions, probe, step, state)?;
+                cut = Some(step.cut(*state));
             }
         }
-        Ok(None)
+        Ok(cut)
     }
 
     /// Adds what the audits found.
