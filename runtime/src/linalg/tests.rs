@@ -332,6 +332,35 @@ fn changes_of_sign_are_counted_at_unlike_distances() {
     check_signs_at_unlike_distances::<3>(&mut random);
 }
 
+/// Rows that are far from dependence beside those of three loops that fold one after the other:
+/// how far each is from its fold depends on the loops before it.
+#[test]
+fn changes_of_sign_are_counted_among_rows_far_from_dependence() {
+    const K: usize = 6;
+    const LOOPS: usize = 3;
+    let mut random = Matrices::seeded(SEED);
+    for round in 0..200 {
+        let before: SMatrix<f64, K, K> = random.matrix();
+        let change: SMatrix<f64, K, K> = random.matrix();
+        let distance = 10.0_f64.powf(-2.0 - 4.0 * random.number().abs());
+        let folded = random.number() < 0.0;
+        let mut factor = SMatrix::<f64, K, K>::identity() + change * 1e-4;
+        for i in 0..LOOPS {
+            for j in 0..K {
+                factor[(i, j)] *= if folded { -distance } else { distance };
+            }
+            for j in 0..i {
+                factor[(i, j)] = 4.0 * distance * random.number();
+            }
+        }
+        let (mut numbers, mut indices) = ([0.0; 8 * K * K], [0; 4 * K]);
+        let workspace = Workspace::new(&mut numbers, &mut [], &mut indices);
+        let [before, after] = [before, before * factor].map(|matrix| block(&matrix, &workspace));
+        let changes = after.sign_changes_from(&before, &workspace);
+        assert_eq!(changes, if folded { LOOPS } else { 0 }, "round {round}");
+    }
+}
+
 /// Eliminates a random system of `N` rows, the last constraint row of which is nearly a
 /// combination of the others, and checks what is told of it.
 fn check_frame<const N: usize>(
