@@ -38,6 +38,7 @@ fn main() -> Result<(), Box<dyn Error>> {
         "stopping",
         "tabled",
         "timed",
+        "warmed",
     ] {
         Builder::new().compile(format!("{name}.mech"))?;
     }

@@ -20,3 +20,4 @@ include!(concat!(env!("OUT_DIR"), "/shifted.rs"));
 include!(concat!(env!("OUT_DIR"), "/stopping.rs"));
 include!(concat!(env!("OUT_DIR"), "/tabled.rs"));
 include!(concat!(env!("OUT_DIR"), "/timed.rs"));
+include!(concat!(env!("OUT_DIR"), "/warmed.rs"));

@@ -1,13 +1,16 @@
 //! Forces that jump in closed loops: what holds them, and what draws them to dead centres.
 
 use crate::events::Diary;
-use bricard_runtime::{Interface, Method, Options, Summary, Whole, assemble, simulate};
+use bricard_runtime::{
+    Interface, Method, Options, StepControl, Summary, Whole, assemble, simulate,
+};
 use bricard_switching::cranked::Cranked;
 use bricard_switching::drawn::Drawn;
 use bricard_switching::jointed::Jointed;
 use bricard_switching::jointed_reduced::JointedReduced;
+use bricard_switching::warmed::Warmed;
 use bricard_testkit::Random;
-use core::f64::consts::FRAC_PI_2;
+use core::f64::consts::{FRAC_PI_2, PI};
 
 fn run<const N: usize, const R: usize>(
     mechanism: &dyn Whole<f64, N, R>,
@@ -131,5 +134,34 @@ fn a_motion_that_slides_to_a_dead_centre_gets_there() {
         ];
         let most = 1e3 * tolerance;
         assert!(off.iter().all(|off| off.abs() < most), "{until}: {off:?}");
+    }
+}
+
+/// States of the first order have rates, but no power.
+#[test]
+fn a_state_that_friction_changes_takes_no_energy() {
+    let mut random = Random::seeded(0x0EA7);
+    for round in 0..40 {
+        let mut warmed = Warmed::default();
+        // The crank comes to rest this far from where both cranks lie on the line of the base.
+        let beside = 10.0_f64.powf(-3.0 + random.within(1.0)) * [1.0, -1.0][round % 2];
+        let inertia = 2.0 * 0.02 + 0.3 * 0.3;
+        warmed.parameters.w0 = (2.0 * 0.8 / inertia * (PI / 9.0 + beside)).sqrt();
+        let start = assemble::<f64, _, 4, 2>(&warmed, &warmed.start(), 0.0).expect("a start");
+        let method = [Method::Rk4, Method::Dop853, Method::Radau9][round % 3];
+        let step = 10.0_f64.powf(-2.8 + random.within(0.4));
+        let options = Options::new(3.0, method, StepControl::Fixed { step });
+        let name = format!("{:?} {method:?} {step}", warmed.parameters);
+        let summary = simulate::<_, _, 4, 2>(&warmed, &start, &options, &mut [])
+            .unwrap_or_else(|failure| panic!("{name}: {failure}"));
+        let (lost, end) = (summary.energy_supplied.unwrap_or(0.0), summary.end);
+        assert!((end.q[0] - PI - beside).abs() < 1e-5, "{name}: {}", end.q);
+        assert!(
+            (lost + end.v[3]).abs() < 1e-5,
+            "{name}: {lost} {}",
+            end.v[3]
+        );
+        let error = summary.energy_error.unwrap_or(1.0);
+        assert!(error < 1e-5, "{name}: {error:e}");
     }
 }

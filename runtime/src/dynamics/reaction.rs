@@ -135,7 +135,12 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
         mechanism.terms(state, &mut self.terms);
         self.terms.sides = sides;
         let more = held - self.terms.force;
-        dot(more.as_slice(), state.v.as_slice())
+        // States of the first order, which come last, have rates but no power.
+        let freedoms = mechanism.structure().freedoms().len();
+        dot(
+            &more.as_slice()[..freedoms],
+            &state.v.as_slice()[..freedoms],
+        )
     }
 
     /// `p₁`, of a motion that slides with the weights of its forces.

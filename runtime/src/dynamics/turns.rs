@@ -81,9 +81,10 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
                 *length = length.min(T::from_f64(TAU * FAR));
             }
         }
-        // The inertia of integrals of states does not count.
+        // Integrals of states have no inertia, and change nothing however far they go.
         let lengths = N - mechanism.structure().states;
         self.weights[lengths..].fill(T::zero());
+        self.far[lengths..].fill(T::from_f64(f64::INFINITY));
         Ok(())
     }
 
