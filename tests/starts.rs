@@ -1,6 +1,7 @@
 //! Starts that are given by formulas: they hold to round-off, together with the
 //! constraints, or the start is refused.
 
+use bricard::slider_crank::SliderCrank;
 use bricard_fixtures::placed::Placed;
 use bricard_fixtures::three_cranks::ThreeCranks;
 use bricard_runtime::{AssemblyError, Interface, Mechanism, Position, State, assemble};
@@ -97,4 +98,13 @@ fn equations_for_velocities_hold_where_rows_are_the_same() {
             );
         }
     }
+}
+
+/// Nothing can be moved then, which is not to be taken for a singular position.
+#[test]
+fn an_infinite_inertia_is_told() {
+    let mut mechanism = SliderCrank::<f64>::default();
+    mechanism.parameters.j2 = f64::INFINITY;
+    let assembled = assemble::<f64, _, 3, 2>(&mechanism, &mechanism.start(), 0.0);
+    assert_eq!(assembled, Err(AssemblyError::NotFinite { t: 0.0 }));
 }

@@ -1,7 +1,10 @@
 //! Stiff mechanisms of the library against published and computed references.
 
 use crate::library::{Inspect, inspect};
-use bricard_runtime::{Method, Options, StepControl, Summary, Whole, assemble, simulate};
+use bricard::slider_crank::SliderCrank;
+use bricard_runtime::{
+    Initial, Interface, Method, Options, StepControl, Summary, Whole, assemble, simulate,
+};
 
 /// Height of the sleeve of the flyball governor after 10 s (m): an implicit method of
 /// order 5 at tolerance 1e-12, on the equations in three coordinates.
@@ -80,5 +83,32 @@ fn the_flexible_slider_crank_ends_at_the_published_reference() {
                 "{method}: q[{i}] = {found:e} is off by {error:e}"
             );
         }
+    }
+}
+
+/// The equations of a step of this length can't be solved beside the second passage.
+#[test]
+fn implicit_steps_of_fixed_length_pass_singular_positions_at_speed() {
+    let mechanism = SliderCrank::<f64>::default();
+    let mut start = mechanism.start();
+    start.v[0] = Initial {
+        value: 20.0,
+        held: true,
+    };
+    let start = assemble::<f64, _, 3, 2>(&mechanism, &start, 0.0).expect("the start assembles");
+    let run = |options: &Options<f64>| {
+        simulate::<_, _, 3, 2>(&mechanism, &start, options, &mut [])
+            .unwrap_or_else(|failure| panic!("{:?}: {failure}", options.method))
+    };
+    let exact = run(&Options::dop853(2.0, 1e-11));
+    for method in [Method::Radau5, Method::Radau9] {
+        let fixed = run(&Options::new(
+            2.0,
+            method,
+            StepControl::Fixed { step: 0.01 },
+        ));
+        assert_eq!(fixed.passages, exact.passages, "{method}");
+        let off = (fixed.end.q - exact.end.q).norm();
+        assert!(off < 0.02, "{method}: {off}");
     }
 }

@@ -84,11 +84,29 @@ fn consistent<T: Real, const N: usize, const R: usize>(
         mechanism.begin(&mut met, t).map_err(AssemblyError::Start)?;
         let mut state = given(&met, t);
         if R > 0 {
-            constrain(mechanism, &mut state, start)?;
+            let given = state;
+            constrain(mechanism, &mut state, start)
+                .map_err(|fault| explained(mechanism, &given, fault))?;
         }
         check_inertia(mechanism, &state)?;
         Ok(state)
     })
+}
+
+/// Why a state can't be moved onto the constraints: an inertia that is infinite lets nothing move.
+#[cold]
+#[inline(never)]
+fn explained<T: Real, const N: usize, const R: usize>(
+    mechanism: &dyn Mechanism<T, N, R>,
+    state: &State<T, N>,
+    fault: AssemblyError<T, N, R>,
+) -> AssemblyError<T, N, R> {
+    let mut at = Position::default();
+    mechanism.position(state, &mut at);
+    match at.mass.iter().all(|entry| entry.is_finite()) {
+        true => fault,
+        false => AssemblyError::NotFinite { t: state.t },
+    }
 }
 
 /// The state of the values of a start.

@@ -264,7 +264,8 @@ impl<T: Real, const N: usize> Steps<T, N> {
 const PARTS: usize = 8;
 
 /// Makes a step of fixed length, or a shorter part of it where the motion next to a
-/// singular configuration can't be followed so far at once.
+/// singular configuration can't be followed so far at once, or the equations of an implicit step
+/// can't be solved.
 pub(super) fn in_parts<T: Real, V, E: Copy + Into<IntegrateError<T>>>(
     t: T,
     bound: T,
@@ -281,6 +282,7 @@ pub(super) fn in_parts<T: Real, V, E: Copy + Into<IntegrateError<T>>>(
         let helps = matches!(
             failure,
             IntegrateError::Dynamics(DynamicsError::SingularConfiguration { .. })
+                | IntegrateError::NewtonDiverged { .. }
         );
         if !helps || shorter <= t {
             break;
