@@ -3,7 +3,8 @@
 //! In:  a checked [`Mechanism`] and its equations of motion.
 //! Out: warnings: kinetic energy that is negative, statements that are not finite where the motion
 //!      begins, coordinates without inertia, equations whose derivatives vanish
-//!      where they hold, a start that can't be assembled or goes with several branches
+//!      where they hold, constraints of velocities that are rates of equations for positions, a
+//!      start that can't be assembled or goes with several branches
 //!      ([`lints`]); equations that follow from others ([`redundancies`]).
 //!
 //! Everything is evaluated at a few random positions that satisfy the constraints,
@@ -17,6 +18,7 @@ mod basis;
 mod branch;
 mod finite;
 mod inertia;
+mod integrable;
 mod least_squares;
 mod negative;
 mod numbers;
@@ -40,6 +42,7 @@ pub fn lints(mechanism: &Mechanism, equations: &Equations) -> Diagnostics {
     if let Some(numbers) = Numbers::of_motion(mechanism, equations) {
         let flat = rows::flat(&numbers);
         rows::warn_of_flat(&numbers, &flat, &mut found);
+        integrable::rates(&numbers, &mut found);
         if !negative::energy(&numbers, &mut found) {
             inertia::massless(&numbers, &mut found);
         }

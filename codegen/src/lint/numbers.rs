@@ -275,6 +275,20 @@ impl<'a> Numbers<'a> {
         rows.filter(|&row| self.constraint(row).holonomic).collect()
     }
 
+    /// The equations for velocities.
+    pub fn velocities(&self) -> Vec<usize> {
+        let rows = 0..self.rows.len();
+        rows.filter(|&row| !self.constraint(row).holonomic)
+            .collect()
+    }
+
+    /// `a` and `b` of a row `a·q̇ + b = 0` at a place.
+    pub fn coefficients(&self, row: usize, place: &Place) -> Vec<f64> {
+        let Row { slopes, drift, .. } = self.rows[row];
+        let roots: Vec<ExprId> = slopes.iter().copied().chain(drift).collect();
+        self.values(&roots, place)
+    }
+
     /// Moves free coordinates until equations hold, as far as that is possible.
     pub fn assemble(&self, rows: &[usize], free: &[usize], from: &Place) -> Option<Place> {
         let at = |x: &[f64]| {
