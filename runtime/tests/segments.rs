@@ -3,10 +3,11 @@
 use crate::fixtures::{BEAD, Bead, Framed, Oscillator, PLAIN, simulate};
 use bricard_runtime::nalgebra::SVector;
 use bricard_runtime::{
-    DynamicsError, Interface, Mechanism, Observer, Options, Origin, Probe, Sampler, State, Step,
-    Summary,
+    DynamicsError, Interface, Mechanism, Observer, Options, Origin, Probe, Recorder, Sampler,
+    State, Step, Summary,
 };
 use core::ops::ControlFlow;
+use std::cell::RefCell;
 
 /// Breaks a run off after some steps.
 struct Segment(u64);
@@ -122,27 +123,40 @@ fn energy_is_kept_where_it_was_when_the_whole_began() {
 fn rows_go_on_where_they_ended() {
     let (mechanism, start) = oscillator();
     let options = Options::rk4(1.3, 0.1);
-    let mut times = Vec::new();
+    let times = RefCell::new(Vec::new());
     let collect = |state: &State<f64, 1>| {
-        times.push(state.t);
+        times.borrow_mut().push(state.t);
         ControlFlow::Continue(())
     };
     let mut sampler = Sampler::new(0.25, collect).unwrap();
-    sampler.go_on(0.0, 3);
-    let mut late = Late(sampler);
-    simulate::<1, 0>(&mechanism, &start, &options, &mut [&mut late]).unwrap();
-    assert_eq!(times, [0.75, 1.0, 1.25]);
+    sampler.go_on(0.0, 2);
+    simulate::<1, 0>(&mechanism, &start, &options, &mut [&mut sampler]).unwrap();
+    assert_eq!(times.take(), [0.5, 0.75, 1.0, 1.25]);
+    // A run that nobody calls a continuation has a grid of its own.
+    simulate::<1, 0>(&mechanism, &start, &options, &mut [&mut sampler]).unwrap();
+    assert_eq!(times.take(), [0.3, 0.55, 0.8, 1.05, 1.3]);
 }
 
-/// A sampler that is not told of the beginning.
-struct Late<S>(S);
-
-impl<S: Observer<f64, 1>> Observer<f64, 1> for Late<S> {
-    fn step(
-        &mut self,
-        step: &Step<f64, 1>,
-        probe: &mut dyn Probe<f64, 1>,
-    ) -> Result<ControlFlow<()>, DynamicsError<f64>> {
-        self.0.step(step, probe)
-    }
+#[test]
+fn a_recorder_that_goes_on_has_the_rows_of_the_whole() {
+    let (mechanism, start) = oscillator();
+    let whole = Options::rk4(1.8, 0.1);
+    let mut all = Recorder::new(0.25).unwrap();
+    simulate::<1, 0>(&mechanism, &start, &whole, &mut [&mut all]).unwrap();
+    // The part ends at the end of a step of the whole that is no row.
+    let part = Options::rk4(1.0, 0.1);
+    let mut recorder = Recorder::new(0.25).unwrap();
+    let done = simulate::<1, 0>(&mechanism, &start, &part, &mut [&mut recorder]).unwrap();
+    recorder.go_on(start.t, recorder.rows().len() as u64);
+    let rest = Options {
+        origin: Some(Origin {
+            t: start.t,
+            energy: mechanism.energy(&start).balance,
+            supplied: done.energy_supplied.expect("it is audited"),
+        }),
+        ..whole
+    };
+    simulate::<1, 0>(&mechanism, &done.end, &rest, &mut [&mut recorder]).unwrap();
+    assert_eq!(recorder.rows(), all.rows());
+    assert_eq!(recorder.rows().len(), 7);
 }

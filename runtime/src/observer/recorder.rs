@@ -12,7 +12,7 @@ use std::vec::Vec;
 /// Keeps the states at `t₀`, `t₀ + dt`, `t₀ + 2 dt`, …, see
 /// [`Sampler`](super::Sampler).
 ///
-/// What was recorded before a run failed stays recorded.
+/// What was recorded before a run failed stays recorded, until another run begins.
 #[derive(Clone, Debug)]
 pub struct Recorder<T, const N: usize> {
     grid: Grid<T>,
@@ -32,6 +32,13 @@ impl<T: Real, const N: usize> Recorder<T, N> {
         })
     }
 
+    /// Makes the next run the continuation of one that began at `origin` (s) and had so many
+    /// rows, as [`Sampler::go_on`](super::Sampler::go_on) does. What is recorded stays, and
+    /// later rows are added to it.
+    pub fn go_on(&mut self, origin: T, rows: u64) {
+        self.grid.go_on(origin, rows);
+    }
+
     /// The states so far.
     pub fn rows(&self) -> &[State<T, N>] {
         &self.rows
@@ -49,9 +56,10 @@ impl<T: Real, const N: usize> Observer<T, N> for Recorder<T, N> {
         state: &State<T, N>,
         _probe: &mut dyn Probe<T, N>,
     ) -> Result<ControlFlow<()>, DynamicsError<T>> {
-        self.grid.begin(state.t);
-        self.rows.clear();
-        self.rows.push(*state);
+        if self.grid.begin(state.t) {
+            self.rows.clear();
+            self.rows.push(*state);
+        }
         Ok(ControlFlow::Continue(()))
     }
 

@@ -83,6 +83,8 @@ pub(super) struct Grid<T> {
     every: Interval<T>,
     origin: T,
     next: u64,
+    /// Whether the next run is a later part of one that has begun.
+    goes_on: bool,
 }
 
 impl<T: Real> Grid<T> {
@@ -92,21 +94,29 @@ impl<T: Real> Grid<T> {
                 every: Interval::new(every),
                 origin: T::zero(),
                 next: 0,
+                goes_on: false,
             })
         } else {
             Err(BadInterval(every))
         }
     }
 
-    /// The row at `origin` is taken.
-    pub(super) fn begin(&mut self, origin: T) {
-        self.go_on(origin, 1);
+    /// A run begins at `t`: whether that is a row, the first one. In a later part of a run
+    /// it is none, because the part before has taken what rows there are up to it.
+    pub(super) fn begin(&mut self, t: T) -> bool {
+        if core::mem::take(&mut self.goes_on) {
+            return false;
+        }
+        self.origin = t;
+        self.next = 1;
+        true
     }
 
-    /// The first rows are taken.
-    fn go_on(&mut self, origin: T, rows: u64) {
+    /// The first rows are taken, and the next run has the others.
+    pub(super) fn go_on(&mut self, origin: T, rows: u64) {
         self.origin = origin;
         self.next = rows;
+        self.goes_on = true;
     }
 
     /// Calls `sink` with each row of a step until it breaks off.
@@ -162,8 +172,12 @@ impl<T: Real, F> Sampler<T, F> {
         })
     }
 
-    /// Goes on where another run ended that began at `origin` (s) and had so many
-    /// rows. Beginning anew forgets it.
+    /// Makes the next run the continuation of one that began at `origin` (s) and has given
+    /// so many rows, the one at `origin` among them.
+    ///
+    /// The state that the next run begins with is then no row of its own: the next row is
+    /// the next of `origin + i·dt`, wherever the part before ended. The run after that
+    /// begins anew, unless it is told to go on, too.
     pub fn go_on(&mut self, origin: T, rows: u64) {
         self.grid.go_on(origin, rows);
     }
@@ -179,8 +193,10 @@ where
         state: &State<T, N>,
         _probe: &mut dyn Probe<T, N>,
     ) -> Result<ControlFlow<()>, DynamicsError<T>> {
-        self.grid.begin(state.t);
-        Ok((self.sink)(state))
+        Ok(match self.grid.begin(state.t) {
+            true => (self.sink)(state),
+            false => ControlFlow::Continue(()),
+        })
     }
 
     fn step(
