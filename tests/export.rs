@@ -35,17 +35,29 @@ fn finished(command: &mut Command) -> String {
     String::from_utf8(stdout).expect("text")
 }
 
-/// The last state that the command itself comes to, each number as examples print it.
-fn simulated(folder: &Path) -> Vec<String> {
+/// The last state that the command itself comes to, each number as examples print it: the
+/// columns of coordinates and of states.
+fn simulated(folder: &Path, mechanism: &str, columns: &[usize]) -> Vec<String> {
     let options = ["--until", "10", "--rtol", "1e-9", "--every", "0.5"];
-    let ran = bricard(
-        folder,
-        &[&["simulate", "slider_crank"], &options[..]].concat(),
-    );
-    let last = ran.out.lines().last().expect("rows").to_string();
-    let numbers = last.split(',').skip(1).take(3);
-    let six = |text: &str| format!("{:.6}", text.parse::<f64>().expect("a number"));
-    numbers.map(six).collect()
+    let ran = bricard(folder, &[&["simulate", mechanism], &options[..]].concat());
+    let last: Vec<&str> = ran.out.lines().last().expect("rows").split(',').collect();
+    let six = |column: &usize| {
+        let number: f64 = last[*column].parse().expect("a number");
+        format!("{number:.6}")
+    };
+    columns.iter().map(six).collect()
+}
+
+/// The columns of coordinates of the slider–crank.
+const SLIDER_CRANK: [usize; 3] = [1, 2, 3];
+/// Those of the coordinate and of the state of [`motor`].
+const MOTOR: [usize; 2] = [1, 3];
+
+/// A description with a state of the first order, in a folder of one test's own.
+fn motor(folder: &Path) -> &'static str {
+    let text = include_str!("embedding/motor.mech");
+    fs::write(folder.join("motor.mech"), text).expect("the folder is ours");
+    "motor.mech"
 }
 
 /// The state in the last row of an example, whose last line is a summary.
@@ -91,37 +103,79 @@ fn a_package_for_npm_is_whole_but_for_its_module_where_rust_can_not_compile_that
 }
 
 /// A crate of Rust, in a folder of one test's own.
-fn exported_crate(folder: &Path) -> PathBuf {
-    let ran = bricard(folder, &["export", "slider_crank", "--to", "rust"]);
+fn exported_crate(folder: &Path, mechanism: &str) -> PathBuf {
+    let ran = bricard(folder, &["export", mechanism, "--to", "rust"]);
     assert_eq!(ran.status, Some(0), "{}", ran.err);
-    let made = folder.join("slider_crank");
+    let made = folder.join(mechanism.trim_end_matches(".mech"));
     assert!(!made.join("build.rs").exists());
     made
+}
+
+/// What the example of a crate of Rust says, compiled without cargo.
+fn example_of(made: &Path, name: &str) -> String {
+    let library = ["--crate-type", "lib", "--crate-name", name];
+    finished(built::rustc(&made.join("src/lib.rs"), made).args(library));
+    let example = made.join("examples/simulate.rs");
+    finished(built::rustc(&example, made).args(["--extern", name]));
+    finished(&mut Command::new(made.join("simulate")))
 }
 
 #[test]
 fn the_example_of_a_crate_of_rust_moves_as_the_command_does() {
     let folder = folder("export_rust");
-    let made = exported_crate(&folder);
-    let name = ["--crate-type", "lib", "--crate-name", "slider_crank"];
-    finished(built::rustc(&made.join("src/lib.rs"), &made).args(name));
-    let example = made.join("examples/simulate.rs");
-    finished(built::rustc(&example, &made).args(["--extern", "slider_crank"]));
-    let said = finished(&mut Command::new(made.join("simulate")));
-    assert_eq!(last_row(&said), simulated(&folder), "{said}");
+    let made = exported_crate(&folder, "slider_crank");
+    let said = example_of(&made, "slider_crank");
+    let wanted = simulated(&folder, "slider_crank", &SLIDER_CRANK);
+    assert_eq!(last_row(&said), wanted, "{said}");
+}
+
+#[test]
+fn examples_show_the_values_of_states() {
+    let folder = folder("export_states");
+    let wanted = simulated(&folder, motor(&folder), &MOTOR);
+    let said = example_of(&exported_crate(&folder, "motor.mech"), "motor");
+    let heads = said.lines().next().expect("names").split_whitespace();
+    assert_eq!(heads.collect::<Vec<_>>(), ["t", "angle", "current"]);
+    assert_eq!(last_row(&said), wanted, "{said}");
+    let ran = bricard(
+        &folder,
+        &["export", "motor.mech", "--to", "c", "--out", "c"],
+    );
+    assert_eq!(ran.status, Some(0), "{}", ran.err);
+    let told = example_in_c(&folder.join("c"), "motor");
+    assert_eq!(told.lines().next(), said.lines().next());
+    assert_eq!(last_row(&told), wanted, "{told}");
 }
 
 #[test]
 #[ignore = "long: builds a crate with all that it depends on"]
 fn a_crate_of_rust_builds_and_moves_as_the_command_does() {
     let folder = folder("export_cargo");
-    let made = exported_crate(&folder);
+    let made = exported_crate(&folder, "slider_crank");
     let said = finished(
         built::run(&made)
             .args(["--example", "simulate"])
             .env("CARGO_PROFILE_DEV_OPT_LEVEL", "1"),
     );
-    assert_eq!(last_row(&said), simulated(&folder), "{said}");
+    let wanted = simulated(&folder, "slider_crank", &SLIDER_CRANK);
+    assert_eq!(last_row(&said), wanted, "{said}");
+}
+
+/// How strictly examples in C are compiled.
+const STRICT: [&str; 5] = ["-std=c99", "-Wall", "-Wextra", "-Werror", "-pedantic"];
+
+/// What the example of a folder for C says, with the shared library.
+fn example_in_c(made: &Path, name: &str) -> String {
+    finished(
+        Command::new("cc")
+            .args(STRICT)
+            .args(["example.c", "-Iinclude", "-Llib"])
+            .arg(format!("-lbricard_{name}"))
+            .arg(format!("-Wl,-rpath,{}", made.join("lib").display()))
+            .args(["-o", "shared"])
+            .current_dir(made),
+    );
+    finished(&mut Command::new(made.join("shared")))
 }
 
 #[test]
@@ -133,24 +187,15 @@ fn a_folder_for_c_holds_libraries_and_an_example_that_moves_as_the_command_does(
     );
     assert_eq!(ran.status, Some(0), "{}", ran.err);
     let made = folder.join("c");
-    let strict = ["-std=c99", "-Wall", "-Wextra", "-Werror", "-pedantic"];
-    let wanted = simulated(&folder);
-    let shared = format!("-Wl,-rpath,{}", made.join("lib").display());
-    finished(
-        Command::new("cc")
-            .args(strict)
-            .args(["example.c", "-Iinclude", "-Llib", "-lbricard_slider_crank"])
-            .args([&*shared, "-o", "shared"])
-            .current_dir(&made),
-    );
-    let said = finished(&mut Command::new(made.join("shared")));
+    let wanted = simulated(&folder, "slider_crank", &SLIDER_CRANK);
+    let said = example_in_c(&made, "slider_crank");
     assert_eq!(last_row(&said), wanted, "{said}");
     let config = made.join("lib/pkgconfig/bricard_slider_crank.pc");
     let config = fs::read_to_string(config).expect("it is there");
     let native = config.split_once("Libs.private:").expect("it is told").1;
     finished(
         Command::new("cc")
-            .args(strict)
+            .args(STRICT)
             .args(["example.c", "-Iinclude", "lib/libbricard_slider_crank.a"])
             .args(native.split_whitespace())
             .args(["-o", "static"])

@@ -3,9 +3,10 @@
 
 #include <stdio.h>
 
-enum { WIDTH = 1 + UPPER_F + UPPER_N };
+enum { STATES = 1 + 2 * UPPER_F, WIDTH = 1 + UPPER_F + UPPER_N };
 
-/* Is handed rows: time, coordinates, velocities, states of the first order. */
+/* Is handed rows: time, coordinates, velocities, states of the first order. Velocities are
+   left out here. */
 static int print_rows(void *user, const double *rows, size_t count)
 {
     size_t i, j;
@@ -13,6 +14,8 @@ static int print_rows(void *user, const double *rows, size_t count)
     for (i = 0; i < count; i++) {
         printf("%6.2f", rows[i * WIDTH]);
         for (j = 1; j <= UPPER_F; j++)
+            printf(" %12.6f", rows[i * WIDTH + j]);
+        for (j = STATES; j < WIDTH; j++)
             printf(" %12.6f", rows[i * WIDTH + j]);
         printf("\n");
     }
@@ -35,6 +38,8 @@ int main(void)
     printf("%6s", "t");
     for (j = 0; j < UPPER_F; j++)
         printf(" %12s", bricard_name(m, BRICARD_COORDINATES, j));
+    for (j = STATES; j < WIDTH; j++)
+        printf(" %12s", bricard_name(m, BRICARD_STATES, j - STATES));
     printf("\n");
 
     watch.every = 0.5;

@@ -80,14 +80,19 @@ fn main() -> Result<(), Box<dyn Error>> {
     let mut recorder = Recorder::new(0.5)?;
     let summary = simulate(&mechanism, &start, &options, &mut [&mut recorder])?;
 
+    // Coordinates, and behind them what the description calls states, if it has some:
+    // their values stand behind the velocities.
+    let structure = mechanism.structure();
+    let freedoms = structure.freedoms().len();
     print!("{:>6}", "t");
-    for coordinate in mechanism.structure().coordinates {
-        print!(" {:>12}", coordinate.name);
+    for quantity in structure.coordinates {
+        print!(" {:>12}", quantity.name);
     }
     println!();
     for state in recorder.rows() {
         print!("{:6.2}", state.t);
-        for value in &state.q {
+        let states = state.v.iter().skip(freedoms);
+        for value in state.q.iter().take(freedoms).chain(states) {
             print!(" {value:12.6}");
         }
         println!();

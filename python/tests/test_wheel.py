@@ -5,13 +5,14 @@ import csv
 import hashlib
 import os
 import subprocess
+import sys
 import venv
 import zipfile
 from base64 import urlsafe_b64encode
 from io import StringIO
 
 import pytest
-from conftest import command
+from conftest import ROOT, command
 
 
 @pytest.fixture(scope="module")
@@ -77,6 +78,23 @@ def test_its_example_runs(python):
     lines = said(python, "-m", "slider_crank").splitlines()
     assert lines[0].split() == ["t", "q1", "q2", "q3"]
     assert lines[-2].split()[0] == "10.00" and "passages" in lines[-1]
+
+
+def test_its_example_shows_the_values_of_states(tmp_path):
+    path = str(ROOT / "tests/embedding/motor.mech")
+    command("export", path, "--to", "python", "--out", str(tmp_path))
+    (wheel,) = tmp_path.glob("motor-*.whl")
+    with zipfile.ZipFile(wheel) as archive:
+        archive.extractall(tmp_path)
+    environment = {**os.environ, "PYTHONPATH": str(tmp_path)}
+    done = subprocess.run(
+        [sys.executable, "-m", "motor"], env=environment, capture_output=True, text=True, check=True
+    )
+    lines = done.stdout.splitlines()
+    assert lines[0].split() == ["t", "angle", "current"]
+    rows = command("simulate", path, "--until", "10", "--rtol", "1e-9", "--every", "0.5")
+    _, angle, _, current = map(float, rows.splitlines()[-1].split(","))
+    assert lines[-2].split() == ["10.00", f"{angle:.6f}", f"{current:.6f}"]
 
 
 def test_it_says_what_is_wrong(python):

@@ -3,7 +3,8 @@
 from . import mechanism
 
 run = mechanism.simulate(until=10, every=0.5)
-print(f"{'t':>6}", *(f"{quantity.name:>12}" for quantity in mechanism.coordinates))
-for t, q in zip(run.t, run.q):
-    print(f"{t:6.2f}", *(f"{value:12.6f}" for value in q))
+names = [quantity.name for quantity in (*mechanism.coordinates, *mechanism.states)]
+print(f"{'t':>6}", *(f"{name:>12}" for name in names))
+for t, *values in zip(run.t, *(run[name] for name in names)):
+    print(f"{t:6.2f}", *(f"{value:12.6f}" for value in values))
 print(run.summary)
