@@ -46,7 +46,8 @@ export type Columns =
   | "errors"
   | "rank";
 
-/** A run: its columns by name, the times of passages through singular positions, events. */
+/** A run: its columns by name, the times of passages through singular positions, events: all
+ * of them, however many. */
 export interface Run {
   columns: Record<string, Float64Array>;
   passages: number[];

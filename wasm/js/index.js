@@ -6,7 +6,7 @@
 // A module's memory holds one mechanism, so each `Mechanism` has an instance of its own.
 
 /** The version of the module's functions that this file calls. */
-const VERSION = 2;
+const VERSION = 3;
 
 /** The methods, by the numbers that the module knows them by. */
 const METHODS = ["rk4", "dp5", "dop853", "radau5", "radau9"];
@@ -173,10 +173,12 @@ export class Mechanism {
     const names = ["t", ...this.#startNames(), ...added.flatMap((kind) => COLUMNS[kind](this))];
     const { run, rows, unfinished, width } = this.#wasm;
     const pieces = [];
+    const [passages, events] = [[], []];
     do {
       const again = pieces.length > 0 ? 1 : 0;
       this.#check(run(number(until, "until"), number(every, "every"), bits, again));
       pieces.push(this.#view(rows() * width(bits)).slice());
+      this.#addHappened(passages, events);
     } while (unfinished() === 1);
     const count = pieces.reduce((sum, piece) => sum + piece.length, 0) / names.length;
     const found = Object.fromEntries(names.map((name) => [name, new Float64Array(count)]));
@@ -188,20 +190,17 @@ export class Mechanism {
         places.forEach((i) => (found[names[i]][row] = piece[at + i]));
       }
     }
-    return { columns: found, ...this.#happened() };
+    return { columns: found, passages, events };
   }
 
-  /** The passages and events of the last run. */
-  #happened() {
+  /** Adds the passages and events of the last piece of a run. */
+  #addHappened(passages, events) {
     const marks = this.#numbers(2 * this.#wasm.marks());
-    const passages = [];
-    const events = [];
     for (let at = 0; at < marks.length; at += 2) {
       const [kind, t] = [marks[at], marks[at + 1]];
       if (kind === 0) passages.push(t);
       else events.push({ name: this.events[kind - 1], t });
     }
-    return { passages, events };
   }
 
   /** Time, coordinates, velocities, and states of the first order. */

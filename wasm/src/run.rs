@@ -1,11 +1,11 @@
 //! A run in one call.
 //!
 //! In:  steps.
-//! Out: rows, one after the other in one place, and what happened when.
+//! Out: rows, one after the other in one place, and what happened when, in another.
 //!
-//! Where the place is full, the run ends, to be gone on with when the rows have been read:
-//! at the end of a step away from singular positions if there is one in time, since the
-//! passage through a singular position belongs to one piece.
+//! Where one of the places is full, the run ends, to be gone on with when they have been
+//! read: at the end of a step away from singular positions if there is one in time, since
+//! the passage through a singular position belongs to one piece.
 
 use crate::row::Columns;
 use bricard_runtime::{
@@ -14,11 +14,14 @@ use bricard_runtime::{
 use core::cell::Cell;
 use core::ops::ControlFlow;
 
-/// Passages and events that are kept of a run.
-pub const MOST_MARKS: usize = 1000;
+/// Passages and events of a piece that there is room for.
+const MOST_MARKS: usize = 1000;
+/// So many that come at once there is always room for: the events of a mechanism, 64 at most,
+/// and the passages of a step.
+const AT_ONCE: usize = 100;
 /// Constraints that are independent by more than this sine are away from singular positions.
 const CALM_SINE: f64 = 0.3;
-/// The part of the place that is left for steps near singular positions.
+/// The part of a place that is left for steps near singular positions.
 const SPARE: usize = 8;
 /// What is left of the last interval between rows is round-off up to this part of it, or of
 /// the run, if that is shorter.
@@ -33,7 +36,7 @@ pub struct Log {
     pub rows: u64,
     /// Rows of the last piece.
     pub written: usize,
-    /// Whether rows are missing.
+    /// Whether there is another piece to come.
     pub unfinished: bool,
     marks: [(u32, f64); MOST_MARKS],
     happened: usize,
@@ -50,18 +53,40 @@ impl Log {
         happened: 0,
     };
 
-    /// What happened, and when: zero for a passage through a singular position, one more
-    /// than its place for an event.
+    /// Begins a piece, of which nothing is known yet.
+    pub fn begin_piece(&mut self) {
+        (self.written, self.unfinished, self.happened) = (0, false, 0);
+    }
+
+    /// What happened in the last piece, and when: zero for a passage through a singular
+    /// position, one more than its place for an event.
     pub fn marks(&self) -> &[(u32, f64)] {
         &self.marks[..self.happened.min(MOST_MARKS)]
     }
 
-    fn happens(&mut self, kind: usize, t: f64) -> ControlFlow<()> {
+    /// Whether more happened in one step than there is room for.
+    pub fn is_overfull(&self) -> bool {
+        self.happened > MOST_MARKS
+    }
+
+    /// Forgets what happened after the end of the piece, within its last step: the next
+    /// piece will tell it.
+    pub fn end_piece(&mut self, t: f64) {
+        let mut kept = 0;
+        for place in 0..self.marks().len() {
+            if self.marks[place].1 <= t {
+                self.marks[kept] = self.marks[place];
+                kept += 1;
+            }
+        }
+        self.happened = kept;
+    }
+
+    fn happens(&mut self, kind: usize, t: f64) {
         if let Some(place) = self.marks.get_mut(self.happened) {
             *place = (kind as u32, t);
         }
         self.happened += 1;
-        ControlFlow::Continue(())
     }
 }
 
@@ -138,8 +163,9 @@ where
         state: &State<f64, N>,
         probe: &mut dyn Probe<f64, N>,
     ) -> Result<bool, DynamicsError<f64>> {
-        let room = self.room(probe);
-        let full = self.log.written >= room - room / SPARE;
+        let is_full = |taken, room| taken >= room - room / SPARE;
+        let full =
+            is_full(self.log.written, self.room(probe)) || is_full(self.log.happened, MOST_MARKS);
         Ok(full && state.t < self.until && probe.rank(state)?.sine >= CALM_SINE)
     }
 }
@@ -177,7 +203,8 @@ where
         if self.rows(step, probe)?.is_break() {
             return Ok(ControlFlow::Break(()));
         }
-        if self.is_over(step.end(), probe)? {
+        // An event has ended it, or there is little room left.
+        if self.log.unfinished || self.is_over(step.end(), probe)? {
             self.log.unfinished = true;
             self.last = *step.end();
             return Ok(ControlFlow::Break(()));
@@ -186,10 +213,17 @@ where
     }
 
     fn event(&mut self, occurrence: &Occurrence<f64, N>) -> ControlFlow<()> {
-        self.log.happens(occurrence.index + 1, occurrence.state.t)
+        let t = occurrence.state.t;
+        self.log.happens(occurrence.index + 1, t);
+        if self.log.happened < MOST_MARKS - AT_ONCE || t >= self.until {
+            return ControlFlow::Continue(());
+        }
+        self.log.unfinished = true;
+        ControlFlow::Break(())
     }
 
     fn passage(&mut self, passage: &Passage<f64>) -> ControlFlow<()> {
-        self.log.happens(0, passage.t)
+        self.log.happens(0, passage.t);
+        ControlFlow::Continue(())
     }
 }

@@ -16,7 +16,8 @@ where
 {
     /// Moves on to a time (s) in one run, with rows at equal distances of time (s), which
     /// have the columns of some bits (see `row.rs`). If [`unfinished`](Self::unfinished)
-    /// says so afterwards, rows had no room: with `again` the same run goes on.
+    /// says so afterwards, rows or [`marks`](Self::marks) had no room: with `again` the same
+    /// run goes on.
     pub fn run(&mut self, until: f64, every: f64, columns: u32, again: u32) -> u32 {
         let Some(columns) = Columns::of(columns) else {
             return self.fail(&"there are no columns of this number");
@@ -28,7 +29,7 @@ where
         if again == 0 {
             self.log = Log::EMPTY;
         }
-        (self.log.written, self.log.unfinished) = (0, false);
+        self.log.begin_piece();
         match self.go(until, every, columns) {
             Ok(()) => DONE,
             Err(refused) => refused,
@@ -71,11 +72,22 @@ where
             Ok(summary) => (summary.end, None),
             Err(failure) => (failure.summary.end, Some(failure.error)),
         };
-        motion.state = match self.log.unfinished {
+        motion.state = match self.log.unfinished && error.is_none() {
             true => last,
             false => end,
         };
-        error.map_or(Ok(()), |error| Err(self.fail(&error)))
+        if let Some(error) = error {
+            return Err(self.fail(&error));
+        }
+        if self.log.is_overfull() {
+            return Err(
+                self.fail(&"more happens in one step than there is room for: take shorter steps")
+            );
+        }
+        if self.log.unfinished {
+            self.log.end_piece(last.t);
+        }
+        Ok(())
     }
 
     /// Rows that the last run has written where numbers are read.
@@ -83,7 +95,7 @@ where
         self.log.written as u32
     }
 
-    /// Whether the last run has more rows than there was room for.
+    /// Whether the last run has more rows, passages and events than there was room for.
     pub fn unfinished(&self) -> u32 {
         self.log.unfinished.into()
     }
@@ -95,7 +107,7 @@ where
         })
     }
 
-    /// What happened in the last run: pairs of numbers, of which the first is 0 for a
+    /// What happened in the last piece of the run: pairs of numbers, of which the first is 0 for a
     /// passage through a singular position and one more than its place for an event, the
     /// second the time (s). How many pairs.
     pub fn marks(&mut self) -> u32 {

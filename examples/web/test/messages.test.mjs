@@ -16,8 +16,10 @@ These are the messages of \`MechanismError\`, about the engine of \`examples/web
 \`assembled\` is another one, after \`assemble()\`, and \`wasm\` are the functions of the module, \
 for programs that do without \`index.js\`. Starts and runs are refused in the words of [the runtime](#starts-and-runs).`;
 
-// What only a mechanism brings about that is much larger than any of the library.
+// What only a mechanism brings about that is much larger, or turns much faster, than any of
+// the library.
 const NEVER = [
+  "more happens in one step than there is room for",
   "numbers are more than the module has room for",
   "the description of the mechanism is too long",
   "a row has more numbers than there is room for",

@@ -113,5 +113,5 @@ test("mistakes are errors that say what is wrong", async () => {
 test("the module is small", () => {
   const bytes = statSync(new URL(import.meta.resolve("bricard-engine/mechanism.wasm"))).size;
   console.log(`${bytes} bytes`);
-  assert.ok(bytes < 620_000);
+  assert.ok(bytes < 640_000);
 });
