@@ -145,15 +145,22 @@ class Mechanism:
         return values
 
     def set(self, parameters: Optional[Mapping[str, float]] = None, **more: float) -> None:
-        """Changes parameters: ``m.set(L1=0.4)``, ``m.set({"theta[0]": 1})``."""
+        """Changes parameters: ``m.set(L1=0.4)``, ``m.set({"theta[0]": 1})``; none if one of
+        them is refused."""
         with self._lock:
-            _set_parameters(self._handle, {**(parameters or {}), **more})
+            # A copy is changed and taken, so that what is refused changes nothing.
+            handle = self._handle.clone()
+            _set_parameters(handle, {**(parameters or {}), **more})
+            self._handle = handle
 
     def drive(self, inputs: Mapping[str, Optional[Law]]) -> None:
         """Holds inputs at numbers, or lets them follow functions ``f(t)`` or
-        ``f(t, q, v)``; `None` returns one to the law of the description."""
+        ``f(t, q, v)``; `None` returns one to the law of the description. If one is refused,
+        none is changed."""
         with self._lock:
-            _drive(self._handle, inputs, [])
+            handle = self._handle.clone()
+            _drive(handle, inputs, [])
+            self._handle = handle
 
     # ---- where it can be ---------------------------------------------------------------
 

@@ -38,6 +38,29 @@ def test_a_wrong_description_is_shown_with_its_line():
     assert "`q` is declared twice" in str(wrong.value)
 
 
+def test_what_is_refused_changes_nothing(engine):
+    m = engine.copy()
+    m.drive({"torque": 5})
+    before = m.parameters
+    name = next(iter(before))
+    for wrong in ({"nope": 1}, {"ms": "heavy"}, {"ms": float("nan")}):
+        with pytest.raises(bricard.BricardError):
+            m.set({name: 3 + before[name], **wrong})
+        assert m.parameters == before
+    q, v = m.assemble({"der(crank)": 2})[1:]
+    power = m.energy(q, v)["power"]
+    assert power == 10
+    for law in (7, None, lambda t: 7.0):
+        for wrong in ({"nope": 1}, {"nope": lambda t: t}):
+            with pytest.raises(bricard.UnknownName):
+                m.drive({"torque": law, **wrong})
+            assert m.energy(q, v)["power"] == power
+    m.set({name: 3 + before[name]})
+    m.drive({"torque": None})
+    assert m.parameters[name] == 3 + before[name]
+    assert m.energy(q, v)["power"] == 0
+
+
 def test_what_is_not_there_is_said(tmp_path, monkeypatch):
     with pytest.raises(bricard.CompileError, match="could not read"):
         bricard.Mechanism(tmp_path / "none.mech")

@@ -67,7 +67,8 @@ export type Shape =
 /** What went wrong, in the words of the runtime. */
 export class MechanismError extends Error {}
 
-/** A mechanism compiled by bricard. Each has an instance of the module of its own. */
+/** A mechanism compiled by bricard. Each has an instance of the module of its own. What `set`,
+ * `input` and `state` refuse changes nothing. */
 export class Mechanism {
   /** Loads a module: by default the one of this package. */
   static load(

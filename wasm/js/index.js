@@ -75,23 +75,28 @@ export class Mechanism {
     return this.#wasm.parameter(this.#place("parameters", name));
   }
 
+  // What is given is looked at as a whole before anything is changed, so that what is refused
+  // changes nothing.
+
   /** Sets parameters by name. */
   set(values) {
-    for (const [name, value] of Object.entries(values)) {
-      this.#check(this.#wasm.set_parameter(this.#place("parameters", name), number(value, name)));
-    }
+    const given = Object.entries(values).map(([name, value]) => [
+      this.#place("parameters", name),
+      finite(value, name),
+    ]);
+    for (const [place, value] of given) this.#check(this.#wasm.set_parameter(place, value));
     return this;
   }
 
   /** Holds inputs at values; `null` returns one to its default law. */
   input(values) {
-    for (const [name, value] of Object.entries(values)) {
-      const place = this.#place("inputs", name);
-      this.#check(
-        value === null
-          ? this.#wasm.free_input(place)
-          : this.#wasm.set_input(place, number(value, name)),
-      );
+    const { free_input, set_input } = this.#wasm;
+    const given = Object.entries(values).map(([name, value]) => [
+      this.#place("inputs", name),
+      value === null ? null : finite(value, name),
+    ]);
+    for (const [place, value] of given) {
+      this.#check(value === null ? free_input(place) : set_input(place, value));
     }
     return this;
   }
@@ -144,12 +149,15 @@ export class Mechanism {
   /** Puts the mechanism together at t = 0: with held values and guesses other than those of
    * the description, if some are given. */
   assemble({ held = {}, guessed = {} } = {}) {
+    const given = [[guessed, 0], [held, 1]].flatMap(([values, isHeld]) =>
+      Object.entries(values).map(([name, value]) => [
+        this.#beginning(name),
+        finite(value, name),
+        isHeld,
+      ]),
+    );
     this.#check(this.#wasm.forget());
-    for (const [values, isHeld] of [[guessed, 0], [held, 1]]) {
-      for (const [name, value] of Object.entries(values)) {
-        this.#check(this.#wasm.begin(this.#beginning(name), number(value, name), isHeld));
-      }
-    }
+    for (const words of given) this.#check(this.#wasm.begin(...words));
     this.#check(this.#wasm.assemble());
     return this;
   }
@@ -216,9 +224,8 @@ export class Mechanism {
       const more = m > 0 ? ` and ${m} of the first order in \`states\`` : "";
       throw new MechanismError(`a state has ${n} coordinates and as many velocities${more}`);
     }
-    [t, ...q, ...v, ...states].forEach((value, place) =>
-      this.#check(this.#wasm.place(place, number(value, "the state"))),
-    );
+    const given = [t, ...q, ...v, ...states].map((value) => finite(value, "the state"));
+    given.forEach((value, place) => this.#check(this.#wasm.place(place, value)));
   }
 
   /** The outputs by name. */
@@ -338,6 +345,14 @@ async function compile(source) {
 function number(value, name) {
   if (typeof value !== "number") {
     throw new MechanismError(`${name} must be a number, not ${JSON.stringify(value)}`);
+  }
+  return value;
+}
+
+/** Refuses what is infinite or NaN, too. */
+function finite(value, name) {
+  if (!Number.isFinite(number(value, name))) {
+    throw new MechanismError(`${name} must be a finite number, not ${value}`);
   }
   return value;
 }

@@ -39,6 +39,7 @@ const CALLS = [
   'assembled.run({ until: 1, every: 0.1, columns: ["speed"] })',
   "assembled.state = { t: 0, q: [1], v: [1] }",
   "new Mechanism({ exports: { version: () => 1 } })",
+  "wasm.set_parameter(0, NaN)",
   "wasm.set_parameter(9, 1)",
   "wasm.set_input(9, 1)",
   "wasm.begin(9, 0, 1)",

@@ -92,7 +92,7 @@ test("mistakes are errors that say what is wrong", async () => {
   });
   fails(() => engine.set({ mass: 1 }), /Engine has no "mass" among its parameters: L, m, ms, J/);
   fails(() => engine.set({ ms: "1" }), /ms must be a number, not "1"/);
-  fails(() => engine.set({ ms: NaN }), /a number is wanted, not NaN/);
+  fails(() => engine.set({ ms: NaN }), /ms must be a finite number, not NaN/);
   fails(() => engine.advance(1), /isn't assembled yet/);
   fails(() => engine.state, /isn't assembled yet/);
   fails(() => engine.method("euler"), /there is no method "euler"; there are rk4/);
@@ -108,6 +108,31 @@ test("mistakes are errors that say what is wrong", async () => {
   fails(() => (engine.state = { t: 0, q: [1], v: [1] }), /3 coordinates/);
   assert.equal(engine.advance(0.1).state.t, 0.1);
   await assert.rejects(Mechanism.load(new ArrayBuffer(3)), WebAssembly.CompileError);
+});
+
+test("what is refused changes nothing", async () => {
+  const engine = await Mechanism.load();
+  engine.input({ torque: 5 }).assemble({ held: { "der(crank)": 3 } });
+  const parameters = () => engine.parameters.map(({ name }) => engine.parameter(name));
+  const known = () => [engine.state, engine.start, parameters(), engine.energy.power];
+  const before = known();
+  const { t, q, v, states } = engine.state;
+  for (const act of [
+    () => engine.set({ ms: 3, nope: 1 }),
+    () => engine.set({ ms: 3, m: "1" }),
+    () => engine.set({ ms: 3, m: Infinity }),
+    () => engine.input({ torque: 7, nope: 1 }),
+    () => engine.input({ torque: null, nope: null }),
+    () => engine.assemble({ held: { "der(crank)": 1 }, guessed: { nope: 1 } }),
+    () => engine.assemble({ held: { "der(crank)": 1, rod: NaN } }),
+    () => (engine.state = { t: 1, q: [q[0], 0.1, NaN], v, states }),
+    () => (engine.state = { t: 1, q, v: [0, 0, "0"], states }),
+    () => (engine.state = { t: NaN, q: [1, 1, 1], v, states }),
+  ]) {
+    assert.throws(act, MechanismError);
+    assert.deepEqual(known(), before, String(act));
+  }
+  assert.equal(t, 0);
 });
 
 test("the module is small", () => {
