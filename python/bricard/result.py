@@ -165,8 +165,9 @@ class Result:
             from .errors import InvalidValue
 
             raise InvalidValue(f"the run is from t = {first} s to {last} s")
-        states = np.array([self._inside(x) for x in flat]).reshape(len(flat), -1)
         n = self.mechanism.n
+        # The width is told, since no times have none.
+        states = np.array([self._inside(x) for x in flat]).reshape(len(flat), n + self.mechanism.m)
         q, v = states[:, :n].copy(), states[:, n:].copy()
         if project and self.mechanism.r:
             for row, x in enumerate(flat):

@@ -192,6 +192,8 @@ def test_any_time_of_a_run_can_be_asked_for(slider_crank):
     assert np.allclose(states.q, fine.q, rtol=0, atol=1e-13)
     assert np.allclose(states.v, fine.v, rtol=0, atol=1e-12)
     assert np.array_equal(run.at(run.t[7], project=False).q, run.q[7])
+    none = run.at(np.array([]))
+    assert (none.t.shape, none.q.shape, none.v.shape) == ((0,), (0, 3), (0, 3))
     with pytest.raises(bricard.InvalidValue, match="from t = 0.0 s to 4.0 s"):
         run.at(4.1)
 
