@@ -512,6 +512,30 @@ fn a_stepper_lets_a_program_act_between_steps() {
 }
 
 #[test]
+fn a_stepper_begins_where_it_is_told_and_a_run_on_the_constraints() {
+    let bead = Bead {
+        radius: 1.0,
+        rise: 0.0,
+        weight: 9.81,
+    };
+    let bead = Framed::new(bead, &BEAD);
+    let told = State::new(0.0, SVector::from([1.001, 0.0]), SVector::from([0.0, 1.0]));
+    let options = Options::rk4(0.01, 0.01);
+    let ran = simulate::<2, 1>(&bead, &told, &options, &mut []).unwrap();
+    let mut stepper =
+        Stepper::<f64, 2, 1>::new(Method::Rk4, options.step_control, Settings::default()).unwrap();
+    let mut stepped = told;
+    stepper.step(&bead, &mut stepped, 0.01).unwrap();
+    assert!((stepped.q.norm() - 1.0).abs() < 1e-14, "{stepped:?}");
+    assert!((stepped.q - ran.end.q).norm() > 1e-6, "{stepped:?}");
+    let mut placed = told;
+    stepper.solver().on(&bead).project(&mut placed).unwrap();
+    stepper.step(&bead, &mut placed, 0.01).unwrap();
+    assert!((placed.q - ran.end.q).norm() < 1e-15, "{placed:?}");
+    assert!((placed.v - ran.end.v).norm() < 1e-15, "{placed:?}");
+}
+
+#[test]
 fn a_stepper_and_a_run_agree() {
     let (mechanism, start) = four_bar();
     for (method, step_control) in [

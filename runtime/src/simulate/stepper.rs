@@ -16,6 +16,15 @@ use crate::{Counters, Integrator, Mechanism, Method, Real, Settings, Solver, Sta
 /// Makes steps on demand and does not hold the mechanism in between, so that a
 /// program can set its inputs.
 ///
+/// Steps begin at the state as it is given: other than [`simulate`](crate::simulate), which
+/// projects its start, a step from a state that is off the constraints is off until its end.
+/// [`ConstrainedSystem::project`](crate::ConstrainedSystem::project), of
+/// [`solver`](Self::solver), brings a state back after lengths have changed, say, and
+/// [`assemble`](crate::assemble) finds one anew.
+///
+/// After a step that failed it may be used again from any state; the length of its next step
+/// is then a choice of its own, as at its beginning.
+///
 /// What it needs is taken when it is made, and nothing after that.
 #[derive(Debug)]
 pub struct Stepper<T, const N: usize, const R: usize> {

@@ -21,7 +21,8 @@ const TOLERANCES: f64 = 10.0;
 const BEYOND: f64 = 0.01;
 const BEYOND_OF_FIXED: f64 = 10.0;
 
-/// A passage through a singular configuration.
+/// A passage through a singular configuration: of a run that comes from one side and goes on to
+/// the other. One that ends or begins exactly there has none.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Passage<T> {
     /// When (s).

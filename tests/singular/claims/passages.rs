@@ -171,6 +171,22 @@ fn a_step_that_ends_in_a_singular_configuration_takes_and_invents_no_passage() {
     }
 }
 
+/// The determinant is zero to the last digit where the first run ends and the second begins.
+#[test]
+fn two_runs_that_meet_in_a_singular_configuration_count_no_passage() {
+    let mechanism: &dyn Whole<f64, 2, 1> = &TwoLines::<f64>::default();
+    let start = assemble(mechanism, &mechanism.start(), 0.0).expect("it can be assembled");
+    let run = |from: &State<f64, 2>, until: f64| {
+        let ran = simulate(mechanism, from, &Options::dop853(until, 1e-9), &mut []);
+        ran.unwrap_or_else(|failure| panic!("{until}: {failure}"))
+    };
+    let before = run(&start, 1.0);
+    let after = run(&before.end, 2.0);
+    let whole = run(&start, 2.0);
+    let passages = [before, after, whole].map(|summary| summary.passages);
+    assert_eq!(passages, [Some(0), Some(0), Some(1)]);
+}
+
 /// Passages of a crank that halts in its dead centre, and goes on or back.
 fn halted(method: Method, control: StepControl<f64>, goes: f64) -> Option<u64> {
     let mut mechanism = Halting::<f64>::default();
