@@ -16,14 +16,14 @@ use crate::diagnostic::{Diagnostic, Diagnostics};
 const ASIDE: f64 = 1e-5;
 /// Derivatives are equal to this part of the largest one.
 const EQUAL: f64 = 1e-6;
-/// Random positions that are looked at.
-const POSITIONS: u64 = 3;
 
 /// Warns of constraints of velocities that are rates of equations for positions.
 pub fn rates(numbers: &Numbers, found: &mut Diagnostics) {
     for row in numbers.velocities() {
-        let mut places = (1..=POSITIONS).map(|seed| numbers.random(seed));
-        if places.all(|place| is_gradient(numbers, row, &place)) {
+        if numbers
+            .random_positions()
+            .all(|place| is_gradient(numbers, row, &place))
+        {
             let constraint = numbers.constraint(row);
             let message = format!(
                 "`{}` is the rate of an equation for positions",

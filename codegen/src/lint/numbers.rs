@@ -404,9 +404,12 @@ impl<'a> Numbers<'a> {
                 .assemble(rows, &free, &place)
                 .filter(|place| self.errors(rows, place).1),
         };
-        (1..=POSITIONS)
-            .filter_map(|seed| assembled(self.random(seed)))
-            .collect()
+        self.random_positions().filter_map(assembled).collect()
+    }
+
+    /// Some random positions near the start, at which the constraints need not hold.
+    pub fn random_positions(&self) -> impl Iterator<Item = Place> {
+        (1..=POSITIONS).map(|seed| self.random(seed))
     }
 
     /// A random position near the start.

@@ -22,7 +22,7 @@ pub fn flat(numbers: &Numbers) -> BTreeSet<usize> {
 }
 
 fn is_flat(numbers: &Numbers, row: usize) -> bool {
-    let starts = (1..=3).map(|seed| numbers.random(seed));
+    let starts = numbers.random_positions();
     let judged: Vec<bool> = starts
         .filter_map(|start| flattens(numbers, row, &start))
         .collect();
