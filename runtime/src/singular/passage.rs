@@ -181,16 +181,18 @@ impl<T: Real> Sheet<'_, T> {
         };
         // Signs are compared with those at the end that is farther from singular configurations:
         // two positions next to one, each nearer to that of another loop, tell nothing together.
-        let (base, beside, is_first) = match from.logarithm >= to.logarithm {
-            true => (&from.signs, &to.signs, true),
-            false => (&to.signs, &from.signs, false),
+        let (base, [before, after]) = match from.logarithm >= to.logarithm {
+            true => (
+                &from.signs,
+                [0, to.signs.changes_from(&from.signs, workspace)],
+            ),
+            false => (
+                &to.signs,
+                [from.signs.changes_from(&to.signs, workspace), 0],
+            ),
         };
-        let changes = beside.changes_from(base, workspace);
-        let ends = match is_first {
-            true => [(from, 0), (to, changes)],
-            false => [(from, changes), (to, 0)],
-        };
-        let middle = match changes {
+        let ends = [(from, before), (to, after)];
+        let middle = match before.max(after) {
             0 => self.find_double(&search, (from, to), rates, workspace),
             _ => None,
         };
@@ -330,8 +332,8 @@ impl<T: Real> Sheet<'_, T> {
     }
 
     /// An elimination beyond a singular configuration, between two others of equal signs, if there
-    /// is one. It is sought by the cubic polynomial through the determinants and their rates, as
-    /// far as they are known, and then by bisection.
+    /// is one. It is sought by the cubic polynomial through the determinants and their rates,
+    /// which are taken where they are not known, and then by bisection.
     fn find_double<'b>(
         &mut self,
         search: &Search<'_, T>,
