@@ -9,9 +9,12 @@ use bricard_switching::stopping::Stopping;
 use bricard_switching::timed::Timed;
 use core::ops::ControlFlow;
 
-/// Collects when events happen.
+/// Collects when events happen, and breaks the run off at each if it is to.
 #[derive(Default)]
-pub(crate) struct Diary(pub(crate) Vec<(usize, f64, bool)>);
+pub(crate) struct Diary {
+    pub(crate) told: Vec<(usize, f64, bool)>,
+    pub(crate) ends: bool,
+}
 
 impl<const N: usize> Observer<f64, N> for Diary {
     fn step(
@@ -23,8 +26,11 @@ impl<const N: usize> Observer<f64, N> for Diary {
     }
 
     fn event(&mut self, found: &Occurrence<f64, N>) -> ControlFlow<()> {
-        self.0.push((found.index, found.state.t, found.rising));
-        ControlFlow::Continue(())
+        self.told.push((found.index, found.state.t, found.rising));
+        match self.ends {
+            true => ControlFlow::Break(()),
+            false => ControlFlow::Continue(()),
+        }
     }
 }
 
@@ -52,14 +58,18 @@ fn check(d: f64, options: &Options<f64>, most: f64) {
     let mut diary = Diary::default();
     simulate::<_, _, 2, 0>(&mechanism, &start, options, &mut [&mut diary])
         .unwrap_or_else(|failure| panic!("{failure}"));
-    let found: Vec<_> = diary.0.iter().filter(|(index, ..)| *index == 0).collect();
+    let found: Vec<_> = diary
+        .told
+        .iter()
+        .filter(|(index, ..)| *index == 0)
+        .collect();
     let exact = passages(d, options.until);
     assert_eq!(found.len(), exact.len(), "d = {d:e} {:?}", options.method);
     for ((_, t, rising), (wanted, grows)) in found.iter().zip(&exact) {
         assert!((t - wanted).abs() < most, "{t} instead of {wanted}");
         assert_eq!(rising, grows, "at {t}");
     }
-    let times: Vec<f64> = diary.0.iter().map(|(_, t, _)| *t).collect();
+    let times: Vec<f64> = diary.told.iter().map(|(_, t, _)| *t).collect();
     assert!(times.is_sorted(), "in the order of time");
 }
 
@@ -91,9 +101,9 @@ fn a_function_that_only_just_misses_zero_has_no_event() {
     simulate::<_, _, 2, 0>(&mechanism, &start, &options, &mut [&mut diary])
         .unwrap_or_else(|failure| panic!("{failure}"));
     assert!(
-        diary.0.iter().all(|(index, ..)| *index == 1),
+        diary.told.iter().all(|(index, ..)| *index == 1),
         "{:?}",
-        diary.0
+        diary.told
     );
 }
 
@@ -108,8 +118,8 @@ fn what_stays_within_round_off_of_zero_for_a_while_happens_once() {
             let mut diary = Diary::default();
             simulate::<_, _, 1, 0>(&mechanism, &start, &options, &mut [&mut diary])
                 .unwrap_or_else(|failure| panic!("{failure}"));
-            let [(_, t, rising)] = diary.0[..] else {
-                panic!("{:?} until {until}: {:?}", options.method, diary.0);
+            let [(_, t, rising)] = diary.told[..] else {
+                panic!("{:?} until {until}: {:?}", options.method, diary.told);
             };
             // The cube root of round-off.
             assert!(rising && (t - until).abs() < 1e-4, "{t} instead of {until}");
@@ -134,8 +144,8 @@ fn a_block_that_friction_stops_stops_once_and_there() {
                 let mut diary = Diary::default();
                 simulate::<_, _, 1, 0>(&mechanism, &start, &options, &mut [&mut diary])
                     .unwrap_or_else(|failure| panic!("{failure}"));
-                let [(0, t, false)] = diary.0[..] else {
-                    panic!("{method:?} {tolerance:e}: {:?}", diary.0);
+                let [(0, t, false)] = diary.told[..] else {
+                    panic!("{method:?} {tolerance:e}: {:?}", diary.told);
                 };
                 assert!((t - stops).abs() < 1e-9, "{method:?} {tolerance:e}: {t}");
             }

@@ -60,7 +60,7 @@ fn cranked(mechanism: &Cranked<f64>, options: &Options<f64>) -> (Summary<f64, 4>
     let summary = simulate::<_, _, 4, 2>(mechanism, &start, options, &mut [&mut diary])
         .unwrap_or_else(|failure| panic!("{name}: {failure}"));
     let times = |event: usize| {
-        let happened = diary.0.iter().filter(|(index, ..)| *index == event);
+        let happened = diary.told.iter().filter(|(index, ..)| *index == event);
         happened.map(|(_, t, _)| *t).collect()
     };
     (summary, [times(0), times(1)])

@@ -1,14 +1,11 @@
 //! Runs that go on from where an event ended another tell each event once.
 
+use crate::events::Diary;
 use bricard_runtime::nalgebra::SVector;
-use bricard_runtime::{
-    DynamicsError, Interface, Method, Observer, Occurrence, Options, Probe, State, Step,
-    StepControl, Whole, assemble, simulate,
-};
+use bricard_runtime::{Interface, Method, Options, State, StepControl, Whole, assemble, simulate};
 use bricard_switching::contact::Contact;
 use bricard_switching::paused::Paused;
 use bricard_switching::stopping::Stopping;
-use core::ops::ControlFlow;
 
 /// Every method, with fixed steps and with tolerances.
 fn ways(until: f64) -> Vec<Options<f64>> {
@@ -27,30 +24,6 @@ fn ways(until: f64) -> Vec<Options<f64>> {
     ways
 }
 
-/// Takes note of events, and ends a run at each if it is to.
-struct Bell {
-    ends: bool,
-    told: Vec<(usize, f64)>,
-}
-
-impl<const N: usize> Observer<f64, N> for Bell {
-    fn step(
-        &mut self,
-        _step: &Step<f64, N>,
-        _probe: &mut dyn Probe<f64, N>,
-    ) -> Result<ControlFlow<()>, DynamicsError<f64>> {
-        Ok(ControlFlow::Continue(()))
-    }
-
-    fn event(&mut self, found: &Occurrence<f64, N>) -> ControlFlow<()> {
-        self.told.push((found.index, found.state.t));
-        match self.ends {
-            true => ControlFlow::Break(()),
-            false => ControlFlow::Continue(()),
-        }
-    }
-}
-
 /// The events of a motion, of which each ends a run, and something is done before the next; at
 /// most so many.
 fn in_pieces<const N: usize, const R: usize>(
@@ -59,16 +32,20 @@ fn in_pieces<const N: usize, const R: usize>(
     options: &Options<f64>,
     most: usize,
     between: fn(&mut State<f64, N>),
-) -> Vec<(usize, f64)> {
-    let (mut state, ends) = (start, true);
-    let told = Vec::new();
-    let mut bell = Bell { ends, told };
-    while bell.told.len() < most && state.t < options.until {
-        let run = simulate(mechanism, &state, options, &mut [&mut bell]);
+) -> Vec<(usize, f64, bool)> {
+    let mut state = start;
+    let mut diary = Diary {
+        ends: true,
+        ..Diary::default()
+    };
+    while diary.told.len() < most && state.t < options.until {
+        let run = simulate(mechanism, &state, options, &mut [&mut diary]);
         state = run.unwrap_or_else(|failure| panic!("{failure}")).end;
+        // Nothing happens after the end, at the same instant or not.
+        assert!(diary.told.iter().all(|(_, t, _)| *t <= state.t));
         between(&mut state);
     }
-    bell.told
+    diary.told
 }
 
 /// Compares the events of a motion in one piece with those in pieces.
@@ -78,8 +55,7 @@ fn check<const N: usize, const R: usize>(
     options: &Options<f64>,
 ) {
     let name = format!("{:?} {:?}", options.method, options.step_control);
-    let (ends, told) = (false, Vec::new());
-    let mut whole = Bell { ends, told };
+    let mut whole = Diary::default();
     simulate(mechanism, &start, options, &mut [&mut whole])
         .unwrap_or_else(|failure| panic!("{name}: {failure}"));
     let most = 2 * whole.told.len();
@@ -87,9 +63,9 @@ fn check<const N: usize, const R: usize>(
     assert!(whole.told.len() > 3, "{name}: {:?}", whole.told);
     for event in 0..mechanism.structure().events.len() {
         // The order of those that happen at once is that of round-off.
-        let of = |told: &[(usize, f64)]| -> Vec<f64> {
-            let told = told.iter().filter(|(index, _)| *index == event);
-            told.map(|(_, t)| *t).collect()
+        let of = |told: &[(usize, f64, bool)]| -> Vec<f64> {
+            let told = told.iter().filter(|(index, ..)| *index == event);
+            told.map(|(_, t, _)| *t).collect()
         };
         let [pieces, whole] = [of(&pieces), of(&whole.told)];
         assert_eq!(pieces.len(), whole.len(), "{name}: {pieces:?} {whole:?}");
@@ -135,7 +111,7 @@ fn a_block_bounces_as_often_as_it_comes_to_a_stop() {
             let crossing = 2.0 * d.asin() / 10.0;
             let name = format!("{d} {:?} {:?}", options.method, options.step_control);
             assert_eq!(told.len(), (2.0 / crossing + 0.5) as usize, "{name}");
-            for (i, (_, t)) in told.iter().enumerate() {
+            for (i, (_, t, _)) in told.iter().enumerate() {
                 let exact = (i as f64 + 0.5) * crossing;
                 assert!((t - exact).abs() < 1e-3, "{name}: {t} instead of {exact}");
             }

@@ -23,7 +23,6 @@ use crate::pace::Pace;
 use crate::{
     Direction, DynamicsError, Event, Occurrence, OtherBranch, Probe, Real, State, Step, Watched,
 };
-
 use nalgebra::SVector;
 
 /// Events a mechanism may have.
@@ -131,6 +130,11 @@ impl<T: Real> Events<T> {
                 room: ROOM,
             });
         }
+        self.events = events;
+        (self.begins, self.ends) = (true, false);
+        if self.is_empty() {
+            return Ok(());
+        }
         let mut write = |_, _, values: &mut [T]| {
             functions(state, values);
             Ok(())
@@ -139,7 +143,6 @@ impl<T: Real> Events<T> {
             ends: (state.t, state.t),
             write: &mut write,
         };
-        self.events = events;
         let values = along.values(events, state.t, On::Interpolant);
         let values = values.map_err(SimulateError::Observe)?;
         self.round_off = round_off(functions, state, &values);
@@ -150,7 +153,6 @@ impl<T: Real> Events<T> {
                 false => value.sign(),
             };
         }
-        (self.begins, self.ends) = (true, false);
         Ok(())
     }
 
@@ -430,12 +432,14 @@ pub(super) fn round_off<T: Real, const N: usize>(
     let largest = |x: &SVector<T, N>| x.iter().fold(T::zero(), |most: T, x| most.max(x.abs()));
     let unit = T::EPSILON.powf(T::from_f64(SAME_STATE));
     let [aside, faster] = [largest(&state.q) * unit, largest(&state.v) * unit];
+    let mut moved = *state;
     for i in 0..N {
-        let (mut moved, mut hurried) = (*state, *state);
         moved.q[i] += aside;
-        hurried.v[i] += faster;
         observe(&moved);
-        observe(&hurried);
+        moved.q[i] = state.q[i];
+        moved.v[i] += faster;
+        observe(&moved);
+        moved.v[i] = state.v[i];
     }
     changes
 }

@@ -171,8 +171,12 @@ impl<'a, 'b, T: Real, const N: usize> Observers<'a, 'b, T, N> {
         count: &mut u64,
     ) -> Result<Option<Step<T, N>>, DynamicsError<T>> {
         self.events.look(functions, step)?;
-        let mut cut = None;
-        while let Some(occurrence) = self.events.next(functions, probe, step)? {
+        let mut cut: Option<Step<T, N>> = None;
+        while let Some(mut occurrence) = self.events.next(functions, probe, step)? {
+            // What happens at the same instant is no later than the end of the run.
+            if let Some(cut) = &cut {
+                occurrence.state = *cut.end();
+            }
             *count += 1;
             let mut flow = ControlFlow::Continue(());
             for observer in self.observers.iter_mut() {
