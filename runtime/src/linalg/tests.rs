@@ -1,5 +1,7 @@
 //! Factorisations against what they factorise, on random matrices.
 
+mod exchange;
+
 use super::*;
 use crate::tolerance::{passes, window};
 use bricard_testkit::Random;
