@@ -1,7 +1,7 @@
 //! What observers are told of the inside of a step that passes a singular configuration is
 //! the same in both forms that pass one.
 
-use crate::library::{Inspect, inspect};
+use crate::library::{Inspect, REDUNDANT, inspect};
 use bricard_runtime::{
     DynamicsError, Form, Observer, Options, OtherBranch, Probe, Step, Whole, assemble, simulate,
 };
@@ -60,7 +60,8 @@ impl<const N: usize> Observer<f64, N> for Accelerations {
 
 #[test]
 fn states_within_a_passage_are_observed_in_both_forms_that_pass() {
-    for name in ["slider_crank", "slider_crank_driven", "double_four_bar"] {
+    let passing = ["slider_crank", "slider_crank_driven", "double_four_bar"];
+    for name in passing.into_iter().chain(REDUNDANT) {
         let of = |form| inspect(name, Observed { form });
         let (full, reduced) = (of(Form::Full), of(Form::Reduced));
         assert_eq!(full.len(), reduced.len(), "{name}");

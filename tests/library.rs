@@ -76,7 +76,7 @@ pub fn is_of_unit_size(name: &str) -> bool {
 }
 
 /// The mechanisms with more constraint equations than are ever independent.
-const REDUNDANT: [&str; 3] = ["bennett", "spherical_four_bar", "three_cranks"];
+pub const REDUNDANT: [&str; 4] = ["bennett", "spherical_four_bar", "three_cranks", "loosened"];
 
 /// Whether the constraint equations of a mechanism are independent anywhere.
 pub fn has_regular_states(name: &str) -> bool {

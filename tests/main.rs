@@ -39,6 +39,7 @@ mod parts;
 mod passage;
 mod readme;
 mod reduction;
+mod redundant;
 mod reference;
 mod resume;
 mod skipping;

@@ -2,7 +2,7 @@
 
 use crate::compiled::{Answers, Place, answers, asked};
 use crate::dense::{dot, null_space, size, times};
-use crate::library::{Derived, Point, everything, is_of_unit_size};
+use crate::library::{Derived, Point, everything, has_regular_states, is_of_unit_size};
 use bricard_codegen::internals::expr::{ExprId, Symbol};
 use bricard_codegen::internals::model::Shape;
 use bricard_codegen::internals::optimise::{Slot, interpret, optimise, plain};
@@ -207,7 +207,9 @@ const SEMI_DEFINITE: [&str; 4] = ["hinged_body", "platform", "placed", "tied_bar
 
 /// Runs a check where the regular path may be used; says how often it was.
 fn where_regular(claim: impl Fn(&Derived, &Answers, &str)) {
-    let usual = |name: &str| is_of_unit_size(name) && !SEMI_DEFINITE.contains(&name);
+    // Rows that follow from others do so where the constraints hold.
+    let is_regular = |name: &str| has_regular_states(name) && !SEMI_DEFINITE.contains(&name);
+    let usual = |name: &str| is_of_unit_size(name) && is_regular(name);
     for derived in everything().filter(|derived| usual(&derived.name)) {
         let mut regular = 0;
         for seed in 0..STATES {

@@ -175,7 +175,8 @@ fn derive(
         mechanism = derive::eliminate(declared)?;
         equations = derive::derive(&mut mechanism);
     }
-    let equations = equations?;
+    let mut equations = equations?;
+    equations.redundant = lint::redundant_rows(&mechanism, &equations);
     if let Some(warning) = derive::swell(&mechanism, &equations) {
         warnings.push(warning);
     }

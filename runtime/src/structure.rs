@@ -6,7 +6,7 @@
 /// The version of what generated code and this crate agree on: traits, buffers and this
 /// description. It goes up with every change that older code would not compile with, or
 /// would compile with to something else.
-const FORMAT: u32 = 9;
+const FORMAT: u32 = 10;
 
 /// Compiles where generated code was written for this version of the crate.
 ///
@@ -151,6 +151,9 @@ pub struct Structure {
     /// The rows of `A` that take part in the metric, `M + AᵀWA`, because `M` alone is
     /// singular at all positions.
     pub weighed: &'static [usize],
+    /// The rows of `A` that follow from the others wherever the constraints hold, as far as random
+    /// positions tell: emitted solves leave them out.
+    pub redundant: &'static [usize],
     /// That metric is singular at some positions, at which constraints may become dependent
     /// without a row that becomes weak in it.
     pub metric_degenerates: bool,
@@ -183,6 +186,7 @@ impl Structure {
         drawn: false,
         assumed_regular: false,
         weighed: &[],
+        redundant: &[],
         metric_degenerates: false,
         components: &[],
     };

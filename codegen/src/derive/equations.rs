@@ -32,6 +32,8 @@ pub struct Equations {
     pub jacobian: Matrix,
     /// Rows of `A` that take part in the metric `M + AᵀWA`, because `M` alone is singular.
     pub weighed: Vec<usize>,
+    /// Rows of `A` that follow from the others wherever the constraints hold.
+    pub redundant: Vec<usize>,
     /// There are positions at which that metric is singular.
     pub metric_degenerates: bool,
     /// The connected components of the constraints and `M`; none where all coordinates are in

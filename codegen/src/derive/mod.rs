@@ -159,6 +159,7 @@ fn equations(mechanism: &mut Mechanism, by: Sweep) -> Option<Equations> {
         turn: closure.turn,
         jacobian: closure.jacobian,
         weighed: weighed.rows,
+        redundant: Vec::new(),
         metric_degenerates: weighed.degenerates,
         components: components.unwrap_or_default(),
         drift: closure.drift,

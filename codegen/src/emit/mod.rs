@@ -56,7 +56,7 @@ use subject::{Subject, doc_lines};
 use symbol::SymbolNames;
 
 /// The version of the interface that modules are written for: the runtime's `FORMAT`.
-const FORMAT: u32 = 9;
+const FORMAT: u32 = 10;
 
 /// The module of a mechanism, from the programs that it runs. The numbers of a description are
 /// meant as they are, though one be nearly π or √2.

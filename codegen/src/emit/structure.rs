@@ -34,6 +34,7 @@ pub(super) fn structure(subject: &Subject) -> TokenStream {
     let drawn = !mechanism.shapes.is_empty();
     let assumed_regular = subject.options.assumed_regular;
     let weighed = indices(&subject.equations.weighed);
+    let redundant = indices(&subject.equations.redundant);
     // Where rows are independent by their form, nothing looks whether they are.
     let metric_degenerates = subject.equations.metric_degenerates && !independent;
     let components = subject.equations.components.iter().map(component);
@@ -61,6 +62,7 @@ pub(super) fn structure(subject: &Subject) -> TokenStream {
             drawn: #drawn,
             assumed_regular: #assumed_regular,
             weighed: #weighed,
+            redundant: #redundant,
             metric_degenerates: #metric_degenerates,
             components: &[#(#components),*],
         };

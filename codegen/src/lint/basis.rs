@@ -2,7 +2,7 @@
 
 /// A vector whose part outside a span is smaller than this, relative to its length,
 /// lies in it. Positions are consistent to about 1e-12, so round-off stays far below.
-const INSIDE: f64 = 1e-6;
+pub const INSIDE: f64 = 1e-6;
 
 /// An orthonormal basis that grows, and how each of its vectors is made of the
 /// vectors that were added.
@@ -71,11 +71,13 @@ pub fn norm(vector: &[f64]) -> f64 {
     dot(vector, vector).sqrt()
 }
 
-fn dot(a: &[f64], b: &[f64]) -> f64 {
+/// The scalar product.
+pub fn dot(a: &[f64], b: &[f64]) -> f64 {
     a.iter().zip(b).map(|(x, y)| x * y).sum()
 }
 
-fn subtract(from: &mut [f64], factor: f64, vector: &[f64]) {
+/// `from -= factor · vector`.
+pub fn subtract(from: &mut [f64], factor: f64, vector: &[f64]) {
     for (x, y) in from.iter_mut().zip(vector) {
         *x -= factor * y;
     }

@@ -5,7 +5,8 @@
 //!      begins, coordinates without inertia, equations whose derivatives vanish
 //!      where they hold, constraints of velocities that are rates of equations for positions, a
 //!      start that can't be assembled or goes with several branches
-//!      ([`lints`]); equations that follow from others ([`redundancies`]).
+//!      ([`lints`]); equations that follow from others ([`redundancies`]), and which of them a
+//!      solve can leave out ([`redundant_rows`]).
 //!
 //! Everything is evaluated at a few random positions that satisfy the constraints,
 //! with parameters at their defaults: what is found at all of them is said, what
@@ -22,6 +23,7 @@ mod integrable;
 mod least_squares;
 mod negative;
 mod numbers;
+mod redundant;
 mod rows;
 mod start;
 
@@ -59,4 +61,13 @@ pub fn redundancies(mechanism: &Mechanism, equations: &Equations) -> Diagnostics
         rows::warn_of_redundant(&numbers, &flat, &mut found);
     }
     found
+}
+
+/// Constraint rows that follow from the others at random positions: the motion is the same
+/// without them. Those that stay are as far from dependence as can be.
+pub fn redundant_rows(mechanism: &Mechanism, equations: &Equations) -> Vec<usize> {
+    match Numbers::of_motion(mechanism, equations) {
+        Some(numbers) => redundant::rows(&numbers),
+        None => Vec::new(),
+    }
 }

@@ -12,7 +12,7 @@ const VANISHED: f64 = 1e-4;
 /// A coefficient below this is round-off.
 const TAKES_PART: f64 = 1e-5;
 /// What is true at this many random positions is taken to be true.
-const ENOUGH: usize = 2;
+pub const ENOUGH: usize = 2;
 
 /// The equations for positions whose derivatives vanish where they hold by
 /// themselves, from every random position.

@@ -41,7 +41,7 @@ pub use pass::{Pass, alone};
 pub use program::{Cost, Operation, Program, Slot, Value, cost, interpret, verify};
 pub use programs::{Besides, programs};
 pub use ring::{Polynomials, in_trig_ring};
-pub use solve::{Solved, Way};
+pub use solve::{Layout, Solved, Way};
 
 use crate::expr::ExprId;
 use crate::model::Graph;
@@ -164,18 +164,13 @@ fn with_reduced(
 }
 
 /// The program for the accelerations at regular states, from the program for `mass`, `force`,
-/// `jacobian`, `bias`. The sizes are the numbers of coordinates and of constraint rows, some
-/// of which take part in the metric. `None` where it would divide by what is zero everywhere.
+/// `jacobian`, `bias`. `None` where it would divide by what is zero everywhere.
 ///
 /// # Panics
 ///
 /// As [`optimise`].
-pub fn acceleration_solve(
-    terms: &Program,
-    sizes: (usize, usize),
-    weighed: &[usize],
-) -> Option<Solved> {
-    solve::with_acceleration(terms, sizes, weighed).and_then(checked_solution)
+pub fn acceleration_solve(terms: &Program, layout: Layout) -> Option<Solved> {
+    solve::with_acceleration(terms, layout).and_then(checked_solution)
 }
 
 /// The program for the least corrections of position and velocity, from the
@@ -185,12 +180,8 @@ pub fn acceleration_solve(
 /// # Panics
 ///
 /// As [`optimise`].
-pub fn correction_solve(
-    terms: &Program,
-    sizes: (usize, usize),
-    weighed: &[usize],
-) -> Option<Solved> {
-    solve::with_correction(terms, sizes, weighed).and_then(checked_solution)
+pub fn correction_solve(terms: &Program, layout: Layout) -> Option<Solved> {
+    solve::with_correction(terms, layout).and_then(checked_solution)
 }
 
 /// The program for the accelerations of so many coordinates, from the program for `mass` and

@@ -11,7 +11,7 @@
 use super::functions::{Array, LeftOut, List, Optimised, Programs, StartPrograms};
 use super::wanted::{Wanted, matrix, sparse, vector};
 use super::{
-    Polynomials, Program, Slot, Solved, Way, acceleration_solve, correction_solve, cost,
+    Layout, Polynomials, Program, Slot, Solved, Way, acceleration_solve, correction_solve, cost,
     optimise_among, plain, shared_solve,
 };
 use crate::derive::{
@@ -149,15 +149,15 @@ impl Optimiser<'_> {
             ])
         };
         let terms = self.optimised(&merged([self.written_mass(), vectors()]));
-        let (sizes, weighed) = (equations.sizes(), &equations.weighed);
+        let layout = layout(equations);
         if equations.inertia.is_none() {
-            let acceleration = acceleration_solve(&terms.program, sizes, weighed);
+            let acceleration = acceleration_solve(&terms.program, layout);
             return (terms, acceleration);
         }
         let of_entries = |optimiser: &mut Self| {
             equations.mass.as_ref()?;
             let whole = merged([optimiser.mass(), vectors()]);
-            acceleration_solve(&optimiser.program(&whole), sizes, weighed)
+            acceleration_solve(&optimiser.program(&whole), layout)
         };
         let acceleration = self.with_shared().or_else(|| of_entries(self));
         (terms, acceleration)
@@ -212,7 +212,7 @@ impl Optimiser<'_> {
             vector("speed", &equations.speed),
             matrix("turn", &equations.turn),
         ]));
-        let correction = correction_solve(&terms, equations.sizes(), &equations.weighed);
+        let correction = correction_solve(&terms, layout(equations));
         (Some(position), correction)
     }
 
@@ -377,4 +377,15 @@ impl Optimiser<'_> {
 
 fn merged<const N: usize>(arrays: [Wanted; N]) -> Wanted {
     arrays.concat()
+}
+
+/// How many equations are solved, and which of them are not like the others.
+fn layout(equations: &Equations) -> Layout<'_> {
+    let (n, r) = equations.sizes();
+    Layout {
+        n,
+        r,
+        weighed: &equations.weighed,
+        redundant: &equations.redundant,
+    }
 }

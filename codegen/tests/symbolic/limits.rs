@@ -90,12 +90,26 @@ fn a_coordinate_without_inertia_gets_no_solve_that_divides_by_zero() {
 }
 
 #[test]
-fn constraint_rows_that_repeat_get_no_solve_that_divides_by_zero() {
+fn constraint_rows_that_repeat_are_left_out_of_the_solve() {
     let code = compiled(
         "mechanism Test { coord q; coord w; kinetic der(q)^2 + der(w)^2;
          constraint q = w; constraint 2*q = 2*w; }",
     )
     .code;
+    assert!(code.contains("redundant: &[1]"), "{code}");
+    assert!(code.contains("fn acceleration("), "{code}");
+    assert!(!code.contains("row_pivots.data.0[0][1]"), "{code}");
+}
+
+#[test]
+fn constraint_rows_that_repeat_unseen_get_no_solve_that_divides_by_zero() {
+    // Mechanisms of this size are not evaluated.
+    let code = compiled(
+        "mechanism Test { const N = 66; coord q[N]; kinetic sum(i in 0..N, der(q[i])^2);
+         constraint q[0] = q[1]; constraint 2*q[0] = 2*q[1]; }",
+    )
+    .code;
+    assert!(code.contains("redundant: &[]"), "{code}");
     assert!(!code.contains("fn acceleration("), "{code}");
     assert!(!code.contains("fn correction"), "{code}");
 }

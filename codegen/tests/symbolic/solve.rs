@@ -5,7 +5,7 @@
 
 use bricard_codegen::internals::expr::Symbol;
 use bricard_codegen::internals::optimise::{
-    Operation, Program, Slot, Solved, Way, acceleration_solve, correction_solve, interpret,
+    Layout, Operation, Program, Slot, Solved, Way, acceleration_solve, correction_solve, interpret,
 };
 use bricard_testkit::Random;
 
@@ -17,7 +17,7 @@ const EIGENVALUES: [f64; 2] = [2.0, 6.0];
 type Matrix = Vec<Vec<f64>>;
 
 /// What appends a solve to a program.
-type Solving = fn(&Program, (usize, usize), &[usize]) -> Option<Solved>;
+type Solving = fn(&Program, Layout) -> Option<Solved>;
 
 /// `M`, `A`, `p₁`, `p₂`.
 struct Equations {
@@ -75,15 +75,19 @@ impl Equations {
     /// The program that solves for accelerations, with entries at these places, and its
     /// outputs.
     fn solved(&self) -> (Solved, impl Fn(&str, usize) -> f64 + use<>) {
-        self.solved_by(acceleration_solve)
+        self.solved_by(acceleration_solve, &[])
     }
 
     /// The outputs of the program that corrects, which tells the sizes of rows, too.
     fn corrected(&self) -> impl Fn(&str, usize) -> f64 + use<> {
-        self.solved_by(correction_solve).1
+        self.solved_by(correction_solve, &[]).1
     }
 
-    fn solved_by(&self, way: Solving) -> (Solved, impl Fn(&str, usize) -> f64 + use<>) {
+    fn solved_by(
+        &self,
+        way: Solving,
+        redundant: &[usize],
+    ) -> (Solved, impl Fn(&str, usize) -> f64 + use<>) {
         let entries = self.entries();
         let mut program = Program::default();
         for (k, (slot, _)) in entries.iter().enumerate() {
@@ -98,7 +102,13 @@ impl Equations {
             let value = program.push(Operation::Symbol(symbol));
             program.outputs.push((*slot, value));
         }
-        let solved = way(&program, (N, R), &[]).unwrap();
+        let layout = Layout {
+            n: N,
+            r: R,
+            weighed: &[],
+            redundant,
+        };
+        let solved = way(&program, layout).unwrap();
         let value = |symbol| match symbol {
             Symbol::Parameter(k) => Some(entries[k as usize].1),
             _ => None,
@@ -157,20 +167,55 @@ fn a_long_chain_is_solved_in_one_elimination() {
         let equations = Equations::random(seed);
         let (solved, output) = equations.solved();
         assert_eq!(solved.way, Way::Saddle, "seed {seed}");
-        let mut whole = vec![vec![0.0; N + R]; N + R];
-        for i in 0..N {
-            whole[i][..N].copy_from_slice(&equations.mass[i]);
-            for (k, row) in equations.jacobian.iter().enumerate() {
-                (whole[i][N + k], whole[N + k][i]) = (row[i], row[i]);
-            }
+        check_accelerations(&equations, &output, seed);
+    }
+}
+
+#[test]
+fn rows_that_follow_from_others_are_left_out_and_their_sizes_told() {
+    const LEFT_OUT: [usize; 2] = [3, 6];
+    for seed in 1..20 {
+        let mut equations = Equations::random(seed);
+        for row in LEFT_OUT {
+            let neighbours = |matrix: &Matrix| -> Vec<f64> {
+                let pairs = matrix[row - 1].iter().zip(&matrix[row + 1]);
+                pairs.map(|(a, b)| a - 0.5 * b).collect()
+            };
+            let (levers, bias) = (neighbours(&equations.jacobian), neighbours(&equations.bias));
+            (equations.jacobian[row], equations.bias[row]) = (levers, bias);
         }
-        let right = [equations.force.concat(), equations.bias.concat()].concat();
-        let (exact, _) = dense(&whole, &right);
-        let largest = exact.iter().fold(1.0, |most: f64, x| most.max(x.abs()));
-        for (i, exact) in exact[..N].iter().enumerate() {
-            let error = (output("acceleration", i) - exact).abs();
-            assert!(error <= 1e-9 * largest, "seed {seed}, {i}: {error:e}");
+        let (_, output) = equations.solved_by(acceleration_solve, &LEFT_OUT);
+        let corrected = equations.solved_by(correction_solve, &LEFT_OUT).1;
+        for (i, row) in equations.gram().iter().enumerate() {
+            let error = (corrected("row_squares", i) - row[i]).abs();
+            assert!(error <= 1e-13 * row[i], "seed {seed}, row {i}: {error:e}");
+            let solves = corrected("row_pivots", i) > 0.0;
+            assert_eq!(solves, !LEFT_OUT.contains(&i), "seed {seed}, row {i}");
         }
+        for row in LEFT_OUT.into_iter().rev() {
+            equations.jacobian.remove(row);
+            equations.bias.remove(row);
+        }
+        check_accelerations(&equations, &output, seed);
+    }
+}
+
+/// Compares accelerations with those of a dense solve.
+fn check_accelerations(equations: &Equations, output: &dyn Fn(&str, usize) -> f64, seed: u64) {
+    let size = N + equations.jacobian.len();
+    let mut whole = vec![vec![0.0; size]; size];
+    for i in 0..N {
+        whole[i][..N].copy_from_slice(&equations.mass[i]);
+        for (k, row) in equations.jacobian.iter().enumerate() {
+            (whole[i][N + k], whole[N + k][i]) = (row[i], row[i]);
+        }
+    }
+    let right = [equations.force.concat(), equations.bias.concat()].concat();
+    let (exact, _) = dense(&whole, &right);
+    let largest = exact.iter().fold(1.0, |most: f64, x| most.max(x.abs()));
+    for (i, exact) in exact[..N].iter().enumerate() {
+        let error = (output("acceleration", i) - exact).abs();
+        assert!(error <= 1e-9 * largest, "seed {seed}, {i}: {error:e}");
     }
 }
 

@@ -7,7 +7,7 @@ use bricard_codegen::internals::analyse;
 use bricard_codegen::internals::derive::{Equations, derive};
 use bricard_codegen::internals::expr::{ExprId, Symbol};
 use bricard_codegen::internals::model::Mechanism;
-use bricard_codegen::internals::optimise::{Slot, acceleration_solve, interpret, optimise};
+use bricard_codegen::internals::optimise::{Layout, Slot, acceleration_solve, interpret, optimise};
 
 /// A chain of bodies in Euler parameters that hangs from a point.
 const BODIES: &str = "mechanism Bodies {
@@ -114,7 +114,13 @@ fn accelerations(source: &str, weight: fn(u32) -> f64) -> (Vec<f64>, Vec<f64>) {
         wanted.extend(entries.map(|(i, e)| (slot(array, i, 0), *e)));
     }
     let terms = optimise(graph, &[], &wanted);
-    let solved = acceleration_solve(&terms, (n, r), &equations.weighed).expect("a program");
+    let layout = Layout {
+        n,
+        r,
+        weighed: &equations.weighed,
+        redundant: &[],
+    };
+    let solved = acceleration_solve(&terms, layout).expect("a program");
     let given = |symbol| match symbol {
         Symbol::Weight(row) => Some(weight(row)),
         other => Some(state(other)),

@@ -62,7 +62,7 @@ pub(super) use choices;
 records! {
     Structure {
         name, docs, file, coordinates, unitless_angles, states, described, parameters, inputs, outputs, accelerated, events,
-        constraints, multipliers, weighed, metric_degenerates, components, constant_mass, conservative, scleronomic,
+        constraints, multipliers, weighed, redundant, metric_degenerates, components, constant_mass, conservative, scleronomic,
         independent, drawn, assumed_regular
     }
     ConnectedComponent { coordinates, rows, scleronomic }

@@ -5,14 +5,18 @@
 //! Out: accelerations and projections by them, where the pivots they hand out are
 //!      safe.
 //!
-//! Not here: what happens elsewhere, and for mechanisms whose rows are redundant
-//! everywhere, whose pivots are never safe.
+//! Of rows that are redundant wherever the constraints hold, such code leaves some out. It is
+//! used where the others are as many as are independent.
+//!
+//! Not here: what happens elsewhere.
 
 use super::{Core, Rows};
 use crate::model;
 use crate::state::all_finite;
 use crate::tolerance::{definite, negligible, passes, window};
-use crate::{Acceleration, DynamicsError, Form, Mechanism, Pivots, Real, Stabilisation, State};
+use crate::{
+    Acceleration, DynamicsError, Form, Mechanism, Pivots, Real, Stabilisation, State, Structure,
+};
 use nalgebra::SVector;
 
 /// Coordinates and constraint equations of a mechanism whose pivots fit into registers;
@@ -38,10 +42,11 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
         self.emitted
             && self.settings.form == Form::Reduced
             && !matches!(self.settings.stabilisation, Stabilisation::Baumgarte { .. })
-            && self.rows.all_independent()
+            && self.rows.solves_all()
             && self.metric.is_emitted()
             && self.session.chart.is_none()
             && !self.session.at_rest
+            && !self.session.chooses_rows
     }
 
     /// Decides whether emitted code may be called before anything else is asked.
@@ -94,6 +99,7 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
         if !self.emitted {
             return T::zero();
         }
+        leave_out(mechanism.structure(), &self.rows, &mut solved.pivots);
         let mut squared = squared_sine(&solved.pivots, &self.rows);
         let is_finite = all_finite(&solved.acceleration);
         *acceleration = solved.acceleration;
@@ -127,7 +133,11 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
                 Correcting::Lost => return Ok(None),
             }
         }
-        Err(self.lost(&mechanism, state))
+        // Rows that were left out need not follow from the others with other parameters.
+        match mechanism.structure().redundant {
+            [] => Err(self.lost(&mechanism, state)),
+            _ => Ok(None),
+        }
     }
 
     /// One correction by emitted code of a state that was off by `before` until the last
@@ -150,6 +160,11 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
         if !provided {
             return Correcting::Lost;
         }
+        leave_out(
+            mechanism.structure(),
+            &self.rows,
+            &mut self.correction.pivots,
+        );
         let squared = squared_sine(&self.correction.pivots, &self.rows);
         if squared < self.session.trial.lowest {
             self.session.trial.lowest = squared;
@@ -225,6 +240,18 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
         let (most, round_off) = (negligible::<T>(), T::EPSILON);
         moved <= most * most * coordinate_scale
             && moved * turned <= round_off * round_off * coordinate_scale * whole
+    }
+}
+
+/// Rows that emitted code leaves out have no pivots: they say nothing of dependence.
+#[inline(always)]
+fn leave_out<T: Real, const N: usize, const R: usize>(
+    structure: &Structure,
+    rows: &Rows<T, R>,
+    pivots: &mut Pivots<T, N, R>,
+) {
+    for &row in structure.redundant {
+        pivots.row_pivots[row] = rows.size(row);
     }
 }
 

@@ -46,7 +46,8 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
     }
 
     /// Takes other rows at an accepted state, if these are safely independent there and
-    /// clearly more so than those at hand; whether it did.
+    /// clearly more so than those at hand, or than those that emitted code solves with; whether it
+    /// did. From then on no emitted code is asked that leaves out rows.
     #[inline(never)]
     pub(crate) fn choose_better_rows(
         &mut self,
@@ -58,14 +59,21 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
         }
         mechanism.position(state, &mut self.position);
         self.factorise_metric(mechanism, Source::Position, state.t)?;
-        let before = self.factorise_constraints(Source::Position, Which::All);
+        let mut before = self.factorise_constraints(Source::Position, Which::All);
+        let leaves_out = !mechanism.structure().redundant.is_empty();
+        if leaves_out && !self.session.chooses_rows {
+            before = before.min(self.session.trial.lowest);
+        }
         let known = self.rows.clone();
         let (mut solver, workspace, _) = self.lend(mechanism);
         choose_rows(&mut solver, &workspace);
         let after = self.factorise_constraints(Source::Position, Which::All);
         let is_better = passes(after, window()) && after > before * T::from_f64(CLEARLY_BETTER);
         match is_better {
-            true => self.session.sine = Some(after.sqrt()),
+            true => {
+                self.session.sine = Some(after.sqrt());
+                self.session.chooses_rows = leaves_out;
+            }
             false => self.rows = known,
         }
         Ok(is_better)

@@ -11,7 +11,7 @@
 
 use crate::linalg::{Workspace, independent_columns, lift_rows};
 use crate::tolerance::{disproportionate, negligible, regular};
-use crate::{ConstraintRow, Real};
+use crate::{Real, Structure};
 
 /// Chooses the rows that are the most independent for a Jacobian, in the metric and of size one,
 /// holonomic ones first; whether there are as many.
@@ -51,6 +51,8 @@ pub(crate) struct Rows<T, const R: usize> {
     holonomic: [bool; R],
     /// Whether the rows are independent at all positions, by their form.
     by_form: bool,
+    /// How many rows emitted code leaves out.
+    left_out: usize,
     active: [usize; R],
     active_count: usize,
     holonomic_count: usize,
@@ -59,9 +61,10 @@ pub(crate) struct Rows<T, const R: usize> {
 }
 
 impl<T: Real, const R: usize> Rows<T, R> {
-    /// Rows of which nothing is known but which of them restrict positions, all of those that
-    /// are not listed, and whether they are independent by their form.
-    pub(crate) fn new(constraints: &[ConstraintRow], by_form: bool) -> Self {
+    /// Rows of which nothing is known but what a structure says: which of them restrict
+    /// positions, all of those that are not listed, whether they are independent by their form, and
+    /// which of them emitted code leaves out.
+    pub(crate) fn new(structure: &Structure) -> Self {
         let mut rows = Self {
             size: [T::zero(); R],
             coupling: [T::from_f64(f64::INFINITY); R],
@@ -70,13 +73,14 @@ impl<T: Real, const R: usize> Rows<T, R> {
             weight: [T::zero(); R],
             uneven: false,
             holonomic: [true; R],
-            by_form,
+            by_form: structure.independent,
+            left_out: structure.redundant.len(),
             active: [0; R],
             active_count: 0,
             holonomic_count: 0,
             regular: 0,
         };
-        for (holonomic, constraint) in rows.holonomic.iter_mut().zip(constraints) {
+        for (holonomic, constraint) in rows.holonomic.iter_mut().zip(structure.constraints) {
             *holonomic = constraint.holonomic;
         }
         rows
@@ -136,6 +140,13 @@ impl<T: Real, const R: usize> Rows<T, R> {
     #[inline]
     pub(crate) fn all_independent(&self) -> bool {
         self.regular == R
+    }
+
+    /// Whether the rows that emitted code solves with are as many as are independent at regular
+    /// positions.
+    #[inline]
+    pub(crate) fn solves_all(&self) -> bool {
+        self.regular + self.left_out == R
     }
 
     /// An independent subset that spans all rows at regular positions, if one is

@@ -76,7 +76,7 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
             terms: Terms::default(),
             position: Position::default(),
             metric: Metric::default(),
-            rows: Rows::new(&[], false),
+            rows: Rows::new(&Structure::PLAIN),
             schur: SchurComplement::default(),
             memory: Memory::new(),
             weakest: 0,
@@ -180,7 +180,7 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
             return Ok(());
         }
         let structure = mechanism.structure();
-        self.rows = Rows::new(structure.constraints, structure.independent);
+        self.rows = Rows::new(structure);
         self.sample_sizes(mechanism, state);
         mechanism.position(state, &mut self.position);
         self.factorise_metric(mechanism, Source::Position, state.t)?;

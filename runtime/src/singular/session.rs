@@ -27,6 +27,8 @@ pub(crate) struct Session<T, const N: usize, const R: usize> {
     pub(crate) at_rest: bool,
     /// The next step may come near a singular configuration.
     pub(crate) near: bool,
+    /// The rows that emitted code solves with came near dependence where others did not.
+    pub(crate) chooses_rows: bool,
     /// The sine of the constraints at the last accepted state.
     pub(crate) sine: Option<T>,
     /// By how much it fell or grew in the last step (1/s).
@@ -114,6 +116,7 @@ impl<T: Real, const N: usize, const R: usize> Session<T, N, R> {
             step_chart: None,
             at_rest: false,
             near: false,
+            chooses_rows: false,
             sine: None,
             rate: T::zero(),
             trial: Trial::new(),
@@ -132,6 +135,7 @@ impl<T: Real, const N: usize, const R: usize> Session<T, N, R> {
         self.step_chart = None;
         self.at_rest = false;
         self.near = false;
+        self.chooses_rows = false;
         self.sine = None;
         self.rate = T::zero();
         self.trial.forget();

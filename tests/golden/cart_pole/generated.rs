@@ -12,7 +12,7 @@ pub mod cart_pole {
         Acceleration, Canvas, Energy, Initial, Interface, Linearised, Mechanism,
         Quantity, Real, Start, State, Structure, Terms,
     };
-    const _: () = bricard_runtime::written_for(9);
+    const _: () = bricard_runtime::written_for(10);
     /// The description that this module was generated from.
     pub const SOURCE: &str = "/// Cart–pole: a rod that is balanced on, or swings under, a cart on a rail.\nmechanism CartPole {\n    const g: m/s^2 = 9.81;\n\n    /// mass of the cart\n    param m1: kg = 1;\n    /// mass of the pole\n    param m2: kg = 0.1;\n    /// distance from the pivot to the pole's centre of mass\n    param e: m = 0.5;\n    /// inertia of the pole about its centre of mass\n    param J: kg*m^2 = 0.0083;\n    /// friction of the cart on the rail\n    param d: N*s/m = 0.1;\n\n    /// position of the cart\n    coord x: m;\n    /// angle of the pole, from the upward vertical\n    coord phi: rad;\n\n    /// push on the cart\n    input u: N = 0;\n\n    let c = [x + e*sin(phi), e*cos(phi)];\n\n    kinetic 1/2*m1*der(x)^2;\n    kinetic 1/2*m2*norm2(der(c)) + 1/2*J*der(phi)^2;\n    potential m2*g*c.y;\n    dissipation 1/2*d*der(x)^2;\n    force u on x;\n\n    start { x = 0; phi = 10*deg; }\n\n    /// height of the pole's centre of mass above the pivot\n    output height: m = c.y;\n\n    draw polygon([x - 0.15, -0.08], [x + 0.15, -0.08], [x + 0.15, 0], [x - 0.15, 0]);\n    draw line([x, 0], [x + 2*e*sin(phi), 2*e*cos(phi)]);\n}\n";
     static STRUCTURE: Structure = Structure {
@@ -86,6 +86,7 @@ pub mod cart_pole {
         drawn: true,
         assumed_regular: false,
         weighed: &[],
+        redundant: &[],
         metric_degenerates: false,
         components: &[],
     };

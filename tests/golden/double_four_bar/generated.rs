@@ -16,7 +16,7 @@ pub mod double_four_bar {
         Acceleration, Canvas, ConstraintRow, Correction, Energy, Initial, Interface,
         Linearised, Mechanism, Position, Quantity, Real, Start, State, Structure, Terms,
     };
-    const _: () = bricard_runtime::written_for(9);
+    const _: () = bricard_runtime::written_for(10);
     /// The description that this module was generated from.
     pub const SOURCE: &str = "/// Two parallelograms in a row: Phong & Hoang (2012), Example 2.\n///\n/// Three cranks of length r stand on the ground at distances L, two couplers of\n/// length L join them. The constraints lose rank from four to two where all links\n/// lie in one line: at q1 = k*pi.\nmechanism DoubleFourBar {\n    const g: m/s^2 = 9.81;\n    /// length of the cranks, unless they are given one by one\n    const r: m = 0.4;\n    /// length of couplers and ground links, unless they are given one by one\n    const L: m = 0.7;\n\n    param L1: m = r;\n    param L2: m = L;\n    param L3: m = r;\n    param L4: m = L;\n    param L5: m = r;\n    /// ground link of the first loop\n    param L01: m = L;\n    /// ground link of the second loop\n    param L02: m = L;\n    param e1: m = r/2;\n    param e2: m = L/2;\n    param e3: m = r/2;\n    param e4: m = L/2;\n    param e5: m = r/2;\n    param m1: kg = 1;\n    param m2: kg = 1;\n    param m3: kg = 1;\n    param m4: kg = 1;\n    param m5: kg = 1;\n    param J1: kg*m^2 = 0.1;\n    param J2: kg*m^2 = 0.1;\n    param J3: kg*m^2 = 0.1;\n    param J4: kg*m^2 = 0.1;\n    param J5: kg*m^2 = 0.1;\n\n    /// angle of the first crank, from the x axis like all others\n    coord q1: rad;\n    /// angle of the first coupler\n    coord q2: rad;\n    /// angle of the second crank\n    coord q3: rad;\n    /// angle of the second coupler\n    coord q4: rad;\n    /// angle of the third crank\n    coord q5: rad;\n\n    let P1 = L1*[cos(q1), sin(q1)];\n    let P3 = [L01, 0] + L3*[cos(q3), sin(q3)];\n    let P5 = [L01 + L02, 0] + L5*[cos(q5), sin(q5)];\n    let c2 = P1 + e2*[cos(q2), sin(q2)];\n    let c4 = P3 + e4*[cos(q4), sin(q4)];\n\n    kinetic 1/2*(m1*e1^2 + J1)*der(q1)^2;\n    kinetic 1/2*m2*norm2(der(c2)) + 1/2*J2*der(q2)^2;\n    kinetic 1/2*(m3*e3^2 + J3)*der(q3)^2;\n    kinetic 1/2*m4*norm2(der(c4)) + 1/2*J4*der(q4)^2;\n    kinetic 1/2*(m5*e5^2 + J5)*der(q5)^2;\n    potential m1*g*e1*sin(q1) + m2*g*c2.y + m3*g*e3*sin(q3) + m4*g*c4.y + m5*g*e5*sin(q5);\n\n    constraint L1*cos(q1) + L2*cos(q2) - L3*cos(q3) = L01;\n    constraint L1*sin(q1) + L2*sin(q2) - L3*sin(q3) = 0;\n    constraint L3*cos(q3) + L4*cos(q4) - L5*cos(q5) = L02;\n    constraint L3*sin(q3) + L4*sin(q4) - L5*sin(q5) = 0;\n\n    start { q1 = 80*deg; q2 ~ 0; q3 ~ 80*deg; q4 ~ 0; q5 ~ 80*deg; }\n\n    /// middle of the first coupler\n    output c: m = c2;\n\n    draw line([0, 0], P1, P3, [L01, 0]);\n    draw line(P3, P5, [L01 + L02, 0]);\n}\n";
     static STRUCTURE: Structure = Structure {
@@ -210,6 +210,7 @@ pub mod double_four_bar {
         drawn: true,
         assumed_regular: false,
         weighed: &[],
+        redundant: &[],
         metric_degenerates: false,
         components: &[],
     };

@@ -12,7 +12,7 @@ pub mod double_pendulum {
         Acceleration, Canvas, Energy, Initial, Interface, Linearised, Mechanism,
         Quantity, Real, Start, State, Structure, Terms,
     };
-    const _: () = bricard_runtime::written_for(9);
+    const _: () = bricard_runtime::written_for(10);
     /// The description that this module was generated from.
     pub const SOURCE: &str = "/// Double pendulum: two rods in a plane, the second hung on the end of the first.\nmechanism DoublePendulum {\n    const g: m/s^2 = 9.81;\n\n    /// length of the upper rod\n    param L1: m = 1;\n    /// length of the lower rod\n    param L2: m = 1;\n    /// mass of the upper rod\n    param m1: kg = 1;\n    /// mass of the lower rod\n    param m2: kg = 1;\n    /// inertia of the upper rod about its centre of mass\n    param J1: kg*m^2 = 1/12;\n    /// inertia of the lower rod about its centre of mass\n    param J2: kg*m^2 = 1/12;\n\n    /// angle of the upper rod, from the vertical\n    coord q1: rad;\n    /// angle of the lower rod, from the vertical\n    coord q2: rad;\n\n    let d1 = [sin(q1), -cos(q1)];\n    let d2 = [sin(q2), -cos(q2)];\n    let c1 = L1/2*d1;\n    let P = L1*d1;\n    let c2 = P + L2/2*d2;\n    let tip = P + L2*d2;\n\n    kinetic 1/2*m1*norm2(der(c1)) + 1/2*J1*der(q1)^2;\n    kinetic 1/2*m2*norm2(der(c2)) + 1/2*J2*der(q2)^2;\n    potential m1*g*c1.y + m2*g*c2.y;\n\n    start { q1 = 120*deg; q2 = -10*deg; }\n\n    /// end of the lower rod\n    output end: m = tip;\n\n    draw line([0, 0], P, tip);\n    draw trace(tip);\n}\n";
     static STRUCTURE: Structure = Structure {
@@ -90,6 +90,7 @@ pub mod double_pendulum {
         drawn: true,
         assumed_regular: false,
         weighed: &[],
+        redundant: &[],
         metric_degenerates: false,
         components: &[],
     };

@@ -15,7 +15,7 @@ pub mod driven_pivot {
         Acceleration, Canvas, ConstraintRow, Correction, Energy, Initial, Interface,
         Linearised, Mechanism, Position, Quantity, Real, Start, State, Structure, Terms,
     };
-    const _: () = bricard_runtime::written_for(9);
+    const _: () = bricard_runtime::written_for(10);
     /// The description that this module was generated from.
     pub const SOURCE: &str = "/// A pendulum whose pivot is shaken up and down: a constraint that depends on time.\n///\n/// Shaken fast enough, (A*w)^2 > 2*g*l with the reduced length l = J/(m*e) + e, the\n/// pendulum stands upright (Kapitza).\nmechanism DrivenPivot {\n    const g: m/s^2 = 9.81;\n\n    /// amplitude of the pivot\n    param A: m = 0.03;\n    /// angular frequency of the pivot\n    param w: rad/s = 150;\n    /// mass of the rod\n    param m: kg = 0.5;\n    /// distance from the pivot to the rod's centre of mass\n    param e: m = 0.25;\n    /// inertia of the rod about its centre of mass\n    param J: kg*m^2 = 0.01;\n    /// friction in the pivot\n    param d: N*m*s = 0.002;\n\n    /// height of the pivot\n    coord y: m;\n    /// angle of the rod, from the upward vertical\n    coord phi: rad;\n\n    let c = [e*sin(phi), y + e*cos(phi)];\n\n    kinetic 1/2*m*norm2(der(c)) + 1/2*J*der(phi)^2;\n    potential m*g*c.y;\n    dissipation 1/2*d*der(phi)^2;\n\n    constraint y = A*cos(w*t);\n\n    start { phi = 10*deg; der(phi) = 0; y ~ 0; }\n\n    /// end of the rod\n    output tip: m = c + e*[sin(phi), cos(phi)];\n\n    draw line([0, y], [2*e*sin(phi), y + 2*e*cos(phi)]);\n    draw circle([0, y], 0.01);\n}\n";
     static STRUCTURE: Structure = Structure {
@@ -99,6 +99,7 @@ pub mod driven_pivot {
         drawn: true,
         assumed_regular: false,
         weighed: &[],
+        redundant: &[],
         metric_degenerates: false,
         components: &[],
     };

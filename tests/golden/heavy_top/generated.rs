@@ -14,7 +14,7 @@ pub mod heavy_top {
         Acceleration, Canvas, ConstraintRow, Correction, Energy, Initial, Interface,
         Linearised, Mechanism, Position, Quantity, Real, Start, State, Structure, Terms,
     };
-    const _: () = bricard_runtime::written_for(9);
+    const _: () = bricard_runtime::written_for(10);
     /// The description that this module was generated from.
     pub const SOURCE: &str = "/// Heavy top: a spinning body that is held at one point and falls around it.\n///\n/// Its attitude is written in Euler parameters, which have no singular position.\nmechanism HeavyTop {\n    const g: m/s^2 = 9.81;\n\n    /// mass\n    param m: kg = 1;\n    /// distance of the centre of mass from the fixed point\n    param a: m = 0.1;\n    /// inertia about the axis of symmetry\n    param J3: kg*m^2 = 0.002;\n    /// inertia about an axis across it, through the centre of mass\n    param J1: kg*m^2 = 0.0015;\n\n    /// angle of the axis from the upward vertical at the start\n    param lean: rad = 30*deg;\n    /// angular velocity about the axis of symmetry at the start\n    param spin0: rad/s = 100;\n\n    /// Euler parameters\n    coord e[4]: 1;\n\n    let R = quat(e[0], e[1], e[2], e[3]);\n    let w = omega(R);\n    let axis = R*[0, 0, 1];\n    let c = a*axis;\n\n    kinetic 1/2*m*norm2(der(c)) + 1/2*J1*(w.x^2 + w.y^2) + 1/2*J3*w.z^2;\n    potential m*g*c.z;\n\n    constraint norm2(e) = 1;\n\n    start {\n        e[1] = sin(lean/2);\n        e[2] = 0;\n        e[3] = 0;\n        e[0] ~ cos(lean/2);\n        der(e[1]) = 0;\n        der(e[2]) = -spin0/2*sin(lean/2);\n        der(e[3]) = spin0/2*cos(lean/2);\n    }\n\n    /// a point on the axis\n    output tip: m = 2*a*axis;\n    /// angular velocity about the axis of symmetry, which is constant\n    output spin: rad/s = w.z;\n    /// angular momentum about the vertical, which is constant\n    output momentum: N*m*s = (J1 + m*a^2)*(w.x*R[2][0] + w.y*R[2][1]) + J3*w.z*R[2][2];\n\n    draw line([0, 0, 0], 2*a*axis);\n    draw circle(2*a*axis, 0.005);\n    draw trace(2*a*axis);\n}\n";
     static STRUCTURE: Structure = Structure {
@@ -123,6 +123,7 @@ pub mod heavy_top {
         drawn: true,
         assumed_regular: false,
         weighed: &[],
+        redundant: &[],
         metric_degenerates: false,
         components: &[],
     };

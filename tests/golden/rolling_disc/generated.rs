@@ -15,7 +15,7 @@ pub mod rolling_disc {
         Acceleration, Canvas, ConstraintRow, Correction, Energy, Initial, Interface,
         Linearised, Mechanism, Position, Quantity, Real, Start, State, Structure, Terms,
     };
-    const _: () = bricard_runtime::written_for(9);
+    const _: () = bricard_runtime::written_for(10);
     /// The description that this module was generated from.
     pub const SOURCE: &str = "/// A disc that rolls on a plane without slipping, like a coin.\n///\n/// Rolling is two velocity constraints at the point of contact. Fast enough, with\n/// the speed above sqrt(g*r/3), the disc does not fall.\nmechanism RollingDisc {\n    const g: m/s^2 = 9.81;\n\n    /// radius\n    param r: m = 0.3;\n    /// mass, spread evenly\n    param m: kg = 1;\n\n    /// the point of contact\n    coord x: m;\n    coord y: m;\n    /// heading, from the x axis\n    coord psi: rad;\n    /// lean, from upright\n    coord theta: rad;\n    /// angle of rolling\n    coord phi: rad;\n\n    // The frame turns and leans with the disc, but does not roll with it.\n    let F = rotz(psi)*rotx(theta);\n    let w = omega(F) + [0, der(phi), 0];\n    let hub = [x, y, 0] + F*[0, 0, r];\n    let rim = F*[r*sin(phi), 0, r*cos(phi)];\n\n    kinetic 1/2*m*norm2(der(hub));\n    kinetic 1/8*m*r^2*(w.x^2 + w.z^2) + 1/4*m*r^2*w.y^2;\n    potential m*g*hub.z;\n\n    constraint der(x) = r*der(phi)*cos(psi);\n    constraint der(y) = r*der(phi)*sin(psi);\n\n    start {\n        x = 0;\n        y = 0;\n        psi = 0;\n        theta = 10*deg;\n        phi = 0;\n        der(psi) = 0;\n        der(theta) = 0;\n        der(phi) = 6;\n    }\n\n    /// the centre\n    output centre: m = hub;\n\n    draw line([x, y, 0], hub, hub + rim);\n    draw circle(hub, 0.01);\n    draw trace([x, y, 0]);\n    draw trace(hub + rim);\n}\n";
     static STRUCTURE: Structure = Structure {
@@ -104,6 +104,7 @@ pub mod rolling_disc {
         drawn: true,
         assumed_regular: false,
         weighed: &[],
+        redundant: &[],
         metric_degenerates: false,
         components: &[],
     };

@@ -15,7 +15,7 @@ pub mod slider_crank {
         Acceleration, Canvas, ConstraintRow, Correction, Energy, Initial, Interface,
         Linearised, Mechanism, Position, Quantity, Real, Start, State, Structure, Terms,
     };
-    const _: () = bricard_runtime::written_for(9);
+    const _: () = bricard_runtime::written_for(10);
     /// The description that this module was generated from.
     pub const SOURCE: &str = "/// Slider–crank with equal links, moving freely: Phong & Hoang (2012), Example 1.\n///\n/// The slider passes over the crank's bearing, where the constraints lose rank:\n/// at q1 = pi/2 + k*pi.\nmechanism SliderCrank {\n    const g: m/s^2 = 9.81;\n\n    /// length of the crank\n    param L1: m = 0.5;\n    /// length of the connecting rod\n    param L2: m = 0.5;\n    /// mass of the crank\n    param m1: kg = 1;\n    /// mass of the connecting rod\n    param m2: kg = 1;\n    /// mass of the slider\n    param m3: kg = 0.5;\n    /// inertia of the crank about its centre of mass\n    param J1: kg*m^2 = 0.1;\n    /// inertia of the connecting rod about its centre of mass\n    param J2: kg*m^2 = 0.1;\n    let e1 = L1/2;\n    let e2 = L2/2;\n\n    /// crank angle, from the x axis\n    coord q1: rad;\n    /// angle of the connecting rod, downwards from the x axis\n    coord q2: rad;\n    /// position of the slider\n    coord q3: m;\n\n    let A = [L1*cos(q1), L1*sin(q1)];\n    let c2 = A + e2*[cos(q2), -sin(q2)];\n\n    kinetic 1/2*(m1*e1^2 + J1)*der(q1)^2;\n    kinetic 1/2*m2*norm2(der(c2)) + 1/2*J2*der(q2)^2;\n    kinetic 1/2*m3*der(q3)^2;\n    potential m1*g*e1*sin(q1) + m2*g*c2.y;\n\n    constraint L1*cos(q1) + L2*cos(q2) = q3;\n    constraint L1*sin(q1) = L2*sin(q2);\n\n    start { q1 = 45*deg; q2 ~ 45*deg; q3 ~ 0.7; }\n\n    /// position of the connecting rod's centre of mass\n    output x2: m = c2.x;\n    output y2: m = c2.y;\n\n    draw line([0, 0], A, [q3, 0]);\n    draw polygon([q3 - 0.05, -0.03], [q3 + 0.05, -0.03], [q3 + 0.05, 0.03], [q3 - 0.05, 0.03]);\n}\n";
     static STRUCTURE: Structure = Structure {
@@ -114,6 +114,7 @@ pub mod slider_crank {
         drawn: true,
         assumed_regular: false,
         weighed: &[],
+        redundant: &[],
         metric_degenerates: false,
         components: &[],
     };

@@ -15,6 +15,9 @@
 //! Where `M` alone is singular, some rows are said to take part in the metric, and `M` is
 //! `M + AᵀWA` with the weights that are given at run time. The solution is the same: since
 //! `A x` is known, only `λ` changes.
+//!
+//! Rows that follow from others wherever the constraints hold are left out, and have neither
+//! multipliers nor pivots.
 
 mod algebra;
 mod factors;
@@ -27,6 +30,7 @@ use super::dead::ordered;
 use super::program::{Operation, Program, Slot, Value, cost};
 use crate::model::Symbol;
 use algebra::{Algebra, Entry, Signed, Sparse};
+use factors::Factors;
 use saddle::Saddle;
 use schur::Schur;
 pub(super) use shared::with_shared;
@@ -39,14 +43,32 @@ const OPERATIONS_MAX: usize = 100_000;
 /// The sizes of rows.
 const ROW_SQUARES: &str = "row_squares";
 
+/// How many equations there are, and which of them are not like the others.
+#[derive(Clone, Copy, Debug)]
+pub struct Layout<'a> {
+    /// `N`.
+    pub n: usize,
+    /// `R`.
+    pub r: usize,
+    /// The rows of `A` that take part in the metric.
+    pub weighed: &'a [usize],
+    /// The rows of `A` that follow from others.
+    pub redundant: &'a [usize],
+}
+
+impl Layout<'_> {
+    /// The rows that the others follow from, in ascending order.
+    fn independent(&self) -> Vec<usize> {
+        let is_independent = |row: &usize| !self.redundant.contains(row);
+        (0..self.r).filter(is_independent).collect()
+    }
+}
+
 /// What equations there are.
 struct Given<'a> {
     /// Computes the entries.
     program: &'a Program,
-    n: usize,
-    r: usize,
-    /// The rows of `A` that take part in the metric.
-    weighed: &'a [usize],
+    layout: Layout<'a>,
 }
 
 /// Vectors that a program computes.
@@ -54,36 +76,23 @@ type Vectors = Vec<(&'static str, Vec<Entry>)>;
 
 /// The accelerations: `M q̈ + Aᵀλ = p₁`, `A q̈ = p₂`, from `mass`, `force`,
 /// `jacobian`, `bias`. Output `acceleration`.
-pub(super) fn with_acceleration(
-    program: &Program,
-    (n, r): (usize, usize),
-    weighed: &[usize],
-) -> Option<Solved> {
+pub(super) fn with_acceleration(program: &Program, layout: Layout) -> Option<Solved> {
     let acceleration = |system: &mut System| {
-        let (force, bias) = (system.take("force", n), system.take("bias", r));
+        let (force, bias) = (
+            system.take("force", layout.n),
+            system.take("bias", layout.r),
+        );
         vec![("acceleration", system.solve(force, &bias))]
     };
-    cheaper(
-        &Given {
-            program,
-            n,
-            r,
-            weighed,
-        },
-        &acceleration,
-        &[],
-    )
+    cheaper(&Given { program, layout }, &acceleration, &[])
 }
 
 /// The least corrections in the kinetic metric: `A Δq = −g`, and `A Δq̇ = −(A q̇ + b)`
 /// with the right-hand side that it has `Δq` farther on, to first order: from `mass`,
 /// `jacobian`, `residual`, `speed` and `turn`, `∂(A q̇ + b)/∂q`. Outputs `position` and
 /// `velocity`, and the sizes of the rows; `residual` stays one.
-pub(super) fn with_correction(
-    program: &Program,
-    (n, r): (usize, usize),
-    weighed: &[usize],
-) -> Option<Solved> {
+pub(super) fn with_correction(program: &Program, layout: Layout) -> Option<Solved> {
+    let (n, r) = (layout.n, layout.r);
     let corrections = |system: &mut System| {
         let gaps = system.take("residual", r);
         let position = system.solve(vec![None; n], &opposite(gaps));
@@ -96,16 +105,8 @@ pub(super) fn with_correction(
         let velocity = system.solve(vec![None; n], &opposite(speed));
         vec![("position", position), ("velocity", velocity)]
     };
-    cheaper(
-        &Given {
-            program,
-            n,
-            r,
-            weighed,
-        },
-        &corrections,
-        &["residual", ROW_SQUARES],
-    )
+    let kept = ["residual", ROW_SQUARES];
+    cheaper(&Given { program, layout }, &corrections, &kept)
 }
 
 /// The cheaper one of the programs that compute vectors by the two ways.
@@ -121,7 +122,7 @@ fn cheaper(
         Some(Solved { program, way })
     };
     // Without constraints there is only `M`.
-    let saddle = match given.r {
+    let saddle = match given.layout.r {
         0 => None,
         _ => by(Way::Saddle, OPERATIONS_MAX),
     };
@@ -169,6 +170,25 @@ enum Factorised {
     Saddle(Saddle),
 }
 
+impl Factorised {
+    /// The factors of `M`.
+    fn mass(&self) -> &Factors {
+        match self {
+            Self::Schur(factors) => factors.mass(),
+            Self::Saddle(factors) => factors.mass(),
+        }
+    }
+}
+
+/// Some rows of a matrix, one after the other.
+fn chosen(matrix: &Sparse, rows: &[usize]) -> Sparse {
+    let entries = rows.iter().enumerate().flat_map(|(place, &row)| {
+        let entries = matrix.range((row, 0)..(row + 1, 0));
+        entries.map(move |((_, j), entry)| ((place, *j), *entry))
+    });
+    entries.collect()
+}
+
 impl Algebra {
     /// `M + AᵀWA` of the rows that take part.
     fn weigh(&mut self, mass: &mut Sparse, jacobian: &Sparse, weighed: &[usize]) {
@@ -197,11 +217,21 @@ struct System {
     algebra: Algebra,
     entries: BTreeMap<&'static str, Sparse>,
     factorised: Factorised,
+    /// The rows that are solved with.
+    rows: Vec<usize>,
+    /// The other rows, with their sizes.
+    left_out: Vec<(usize, Signed)>,
 }
 
 impl System {
     fn of(given: &Given, way: Way, longest: usize) -> Option<Self> {
-        let (n, r) = (given.n, given.r);
+        let Layout {
+            n,
+            weighed,
+            redundant,
+            ..
+        } = given.layout;
+        let rows = given.layout.independent();
         let mut algebra = Algebra {
             program: given.program.clone(),
             longest,
@@ -214,16 +244,22 @@ impl System {
         }
         let mut mass = entries.remove("mass").unwrap_or_default();
         let jacobian = entries.remove("jacobian").unwrap_or_default();
-        algebra.weigh(&mut mass, &jacobian, given.weighed);
+        algebra.weigh(&mut mass, &jacobian, weighed);
+        let independent = chosen(&jacobian, &rows);
+        let size = (n, rows.len());
         let factorised = if way == Way::Schur {
-            Factorised::Schur(Schur::of(&mut algebra, &mass, &jacobian, n, r)?)
+            Factorised::Schur(Schur::of(&mut algebra, &mass, &independent, size)?)
         } else {
-            Factorised::Saddle(Saddle::of(&mut algebra, &mass, &jacobian, n, r)?)
+            Factorised::Saddle(Saddle::of(&mut algebra, &mass, &independent, size)?)
         };
+        let others = chosen(&jacobian, redundant);
+        let sizes = algebra.squares(factorised.mass(), &others, redundant.len())?;
         Some(System {
             algebra,
             entries,
             factorised,
+            rows,
+            left_out: redundant.iter().copied().zip(sizes).collect(),
         })
     }
 
@@ -233,11 +269,13 @@ impl System {
         (0..size).map(|i| entries.get(&(i, 0)).copied()).collect()
     }
 
-    /// `x` of `M x + Aᵀλ = driving`, `A x = target`.
+    /// `x` of `M x + Aᵀλ = driving`, `A x = target`, of which the targets of rows that are left
+    /// out are not looked at.
     fn solve(&mut self, driving: Vec<Entry>, target: &[Entry]) -> Vec<Entry> {
+        let target: Vec<Entry> = self.rows.iter().map(|&row| target[row]).collect();
         match &self.factorised {
-            Factorised::Schur(factors) => factors.solve(&mut self.algebra, driving, target),
-            Factorised::Saddle(factors) => factors.solve(&mut self.algebra, driving, target),
+            Factorised::Schur(factors) => factors.solve(&mut self.algebra, driving, &target),
+            Factorised::Saddle(factors) => factors.solve(&mut self.algebra, driving, &target),
         }
     }
 
@@ -247,6 +285,8 @@ impl System {
         let Self {
             mut algebra,
             factorised,
+            rows: independent,
+            left_out,
             ..
         } = self;
         let mut outputs: Vec<(Slot, Value)> = Vec::new();
@@ -275,8 +315,11 @@ impl System {
                 write("mass_diagonal", row, Some(whole));
             }
         }
-        for (row, &(pivot, whole)) in rows.iter().enumerate() {
-            write("row_pivots", row, Some(pivot));
+        let solved = independent.iter().copied().zip(rows);
+        let solved = solved.map(|(row, &(pivot, whole))| (row, Some(pivot), whole));
+        let left_out = left_out.into_iter().map(|(row, whole)| (row, None, whole));
+        for (row, pivot, whole) in solved.chain(left_out) {
+            write("row_pivots", row, pivot);
             // A row is compared with its own past, which a correction tells.
             if kept.contains(&ROW_SQUARES) {
                 write(ROW_SQUARES, row, Some(whole));

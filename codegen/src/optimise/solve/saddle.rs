@@ -22,7 +22,7 @@ use std::collections::{BTreeMap, BTreeSet};
 /// A factorised saddle point matrix.
 pub(super) struct Saddle {
     factors: Factors,
-    mass_pivots: Vec<Pivot>,
+    mass: Factors,
     row_pivots: Vec<Pivot>,
 }
 
@@ -32,8 +32,7 @@ impl Saddle {
         algebra: &mut Algebra,
         mass: &Sparse,
         jacobian: &Sparse,
-        n: usize,
-        r: usize,
+        (n, r): (usize, usize),
     ) -> Option<Self> {
         let mut matrix = mass.clone();
         for (&(i, j), &entry) in jacobian {
@@ -58,7 +57,7 @@ impl Saddle {
             .collect();
         Some(Self {
             factors,
-            mass_pivots: whole.pivots,
+            mass: whole,
             row_pivots,
         })
     }
@@ -82,7 +81,12 @@ impl Saddle {
 
     /// Pivots of `M`, and the diagonal entries that they are made of.
     pub fn mass_pivots(&self) -> &[Pivot] {
-        &self.mass_pivots
+        &self.mass.pivots
+    }
+
+    /// The factors of `M`.
+    pub fn mass(&self) -> &Factors {
+        &self.mass
     }
 
     /// Bounds of the pivots of `A M⁻¹ Aᵀ` from below, and its diagonal entries.
@@ -94,7 +98,7 @@ impl Saddle {
 impl Algebra {
     /// `a M⁻¹ aᵀ` for each row `a` of `A`; `None` where one is zero by structure or the
     /// program becomes too long.
-    fn squares(&mut self, mass: &Factors, jacobian: &Sparse, r: usize) -> Option<Vec<Signed>> {
+    pub fn squares(&mut self, mass: &Factors, jacobian: &Sparse, r: usize) -> Option<Vec<Signed>> {
         let mut rows: Vec<Vec<(usize, Signed)>> = vec![Vec::new(); r];
         for (&(i, j), &entry) in jacobian {
             rows[i].push((j, entry));

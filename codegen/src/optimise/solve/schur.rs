@@ -27,8 +27,7 @@ impl Schur {
         algebra: &mut Algebra,
         mass: &Sparse,
         jacobian: &Sparse,
-        n: usize,
-        r: usize,
+        (n, r): (usize, usize),
     ) -> Option<Self> {
         let mass = algebra.factorise(mass, minimum_degree(mass, n));
         if mass.given_up {
@@ -87,6 +86,11 @@ impl Schur {
     /// Pivots of `M`, and the diagonal entries that they are made of.
     pub fn mass_pivots(&self) -> &[Pivot] {
         &self.mass.pivots
+    }
+
+    /// The factors of `M`.
+    pub fn mass(&self) -> &Factors {
+        &self.mass
     }
 
     /// Pivots of `S`, likewise.

@@ -1,0 +1,81 @@
+//! Constraint equations that a solve can leave out.
+//!
+//! In:  constraint rows at random positions that satisfy the constraints.
+//! Out: rows that follow from the others at all of them, chosen so that the others are as far
+//!      from dependence as can be.
+//!
+//! A run verifies it: where the rows that stay are nearly dependent, or the rank is another
+//! one, it chooses rows by itself.
+
+use super::basis::{INSIDE, dot, norm, subtract};
+use super::numbers::{Numbers, Place};
+use super::rows::ENOUGH;
+
+/// The rows that follow from the others wherever the constraints hold, in ascending order.
+pub fn rows(numbers: &Numbers) -> Vec<usize> {
+    let samples = numbers.samples();
+    if samples.len() < ENOUGH {
+        return Vec::new();
+    }
+    let mut places: Vec<Vec<Vec<f64>>> = samples
+        .iter()
+        .map(|place| directions(numbers, place))
+        .collect();
+    let count = places[0].len();
+    let mut left: Vec<usize> = (0..count).collect();
+    while let Some(best) = farthest(numbers, &places, &left) {
+        left.retain(|row| *row != best);
+        places.iter_mut().for_each(|rows| remove(rows, best, &left));
+    }
+    // A row that follows at some positions only may be needed at others.
+    let follows = |row: &usize| places.iter().all(|rows| norm(&rows[*row]) <= INSIDE);
+    match left.iter().all(follows) {
+        true => left,
+        false => Vec::new(),
+    }
+}
+
+/// The rows of `A` at a place, of length one where each coordinate is measured by its own inertia.
+fn directions(numbers: &Numbers, place: &Place) -> Vec<Vec<f64>> {
+    let mass = numbers.mass(place);
+    let diagonal = mass.iter().enumerate().map(|(j, row)| row[j]);
+    let weights: Vec<f64> = diagonal
+        .map(|m| if m > 0.0 { m.sqrt() } else { 1.0 })
+        .collect();
+    let direction = |row: Vec<f64>| {
+        let weighed: Vec<f64> = row.iter().zip(&weights).map(|(a, w)| a / w).collect();
+        let length = norm(&weighed);
+        weighed.iter().map(|a| a / length).collect()
+    };
+    numbers.jacobian(place).into_iter().map(direction).collect()
+}
+
+/// The row that is the farthest from those that were removed, where it is the nearest to them; of
+/// those that are not in their span a row that restricts positions, if there is one.
+fn farthest(numbers: &Numbers, places: &[Vec<Vec<f64>>], left: &[usize]) -> Option<usize> {
+    let distance = |row: usize| {
+        let distances = places.iter().map(|rows| norm(&rows[row]));
+        // The direction of a row of zeros is not a number: it stays for the runtime.
+        distances.fold(1.0, |least, x| if x >= least { least } else { x })
+    };
+    let rows = left.iter().map(|&row| (row, distance(row)));
+    let outside = rows.filter(|(_, distance)| *distance > INSIDE);
+    let restricts_positions = |row: usize| numbers.constraint(row).holonomic;
+    let best = outside.max_by(|(row, distance), (other, farther)| {
+        let kinds = restricts_positions(*row).cmp(&restricts_positions(*other));
+        // Of equals the first one stays.
+        let order = kinds.then(distance.total_cmp(farther));
+        order.then(other.cmp(row))
+    });
+    best.map(|(row, _)| row)
+}
+
+/// Removes what the rows that are left have along another.
+fn remove(rows: &mut [Vec<f64>], best: usize, left: &[usize]) {
+    let length = norm(&rows[best]);
+    let unit: Vec<f64> = rows[best].iter().map(|x| x / length).collect();
+    for &row in left {
+        let along = dot(&unit, &rows[row]);
+        subtract(&mut rows[row], along, &unit);
+    }
+}
