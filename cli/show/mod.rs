@@ -23,7 +23,7 @@ use bricard_codegen::CompileSettings;
 use bricard_codegen::internals::expr::Symbol;
 use bricard_codegen::internals::model::{Described, Mechanism};
 use bricard_codegen::internals::optimise::{Besides, Programs, cost as operations, programs};
-use bricard_codegen::internals::{analyse, derive};
+use bricard_codegen::internals::{analyse, derive, equations_of_motion};
 use std::path::Path;
 
 /// Prints the equations of motion.
@@ -40,7 +40,7 @@ pub fn show(arguments: &Show) -> Result<(), CommandError> {
     if arguments.eliminate {
         mechanism = derive::eliminate(mechanism).map_err(rendered)?;
     }
-    let equations = derive::derive(&mut mechanism).map_err(rendered)?;
+    let equations = equations_of_motion(&mut mechanism).map_err(rendered)?;
     if arguments.programs {
         let programs = programs(&mut mechanism, &equations, Besides::default());
         return print(&listing(&mechanism, &programs));

@@ -26,6 +26,7 @@ pub fn skipped(mechanism: &Mechanism, equations: &Equations, programs: &Programs
         folded(mechanism),
         no_constraints(equations),
         independent(&mechanism.graph, equations),
+        redundant(mechanism, equations),
         on_request(mechanism, programs),
     ];
     let lines: Vec<String> = lines.into_iter().flatten().collect();
@@ -219,6 +220,21 @@ fn independent(graph: &Graph, equations: &Equations) -> Option<String> {
     let (_, r) = equations.sizes();
     (r > 0 && equations.are_independent(graph)).then(|| {
         "rank decisions, and the search for singular configurations in each step: by their form the constraints are independent at all positions".into()
+    })
+}
+
+/// Rows that the solve does without.
+fn redundant(mechanism: &Mechanism, equations: &Equations) -> Option<String> {
+    let rows = &equations.redundant;
+    let named = rows.iter().map(|row| format!("g[{}]", row + 1));
+    let named = named.collect::<Vec<String>>().join(", ");
+    (!rows.is_empty()).then(|| {
+        format!(
+            "{} in the solve, of {}: where the constraints hold {named} {} from the others, which is verified in each step",
+            plural(rows.len(), "row of G", "rows of G"),
+            mechanism.constraints.len(),
+            if rows.len() == 1 { "follows" } else { "follow" }
+        )
     })
 }
 

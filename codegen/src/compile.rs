@@ -135,6 +135,24 @@ pub fn examine(
     Ok((mechanism, warnings))
 }
 
+/// The equations of motion of a checked mechanism, as programs are made of them.
+///
+/// # Errors
+///
+/// They are too long.
+pub fn equations_of_motion(mechanism: &mut Mechanism) -> Result<Equations, Diagnostics> {
+    let equations = derive::derive(mechanism)?;
+    Ok(with_redundant_rows(mechanism, equations))
+}
+
+/// Equations with the news which rows a solve can leave out.
+fn with_redundant_rows(mechanism: &Mechanism, equations: Equations) -> Equations {
+    Equations {
+        redundant: lint::redundant_rows(mechanism, &equations),
+        ..equations
+    }
+}
+
 /// The mechanism of a syntax tree, with warnings. Where some statements can't be read, the
 /// mistakes in the others are reported together with theirs.
 fn lower(read: Read, settings: &CompileSettings) -> Result<(Mechanism, Diagnostics), Diagnostics> {
@@ -175,8 +193,7 @@ fn derive(
         mechanism = derive::eliminate(declared)?;
         equations = derive::derive(&mut mechanism);
     }
-    let mut equations = equations?;
-    equations.redundant = lint::redundant_rows(&mechanism, &equations);
+    let equations = with_redundant_rows(&mechanism, equations?);
     if let Some(warning) = derive::swell(&mechanism, &equations) {
         warnings.push(warning);
     }

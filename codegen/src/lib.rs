@@ -43,7 +43,7 @@ pub use syntax::{Formula, Model, ModelError};
 /// messages of `diagnostic` and the warnings of `lint`.
 #[doc(hidden)]
 pub mod internals {
-    pub use crate::compile::{analyse, examine};
+    pub use crate::compile::{analyse, equations_of_motion, examine};
     pub use crate::read::{NotUtf8, read_text};
     pub mod derive {
         pub use crate::derive::*;

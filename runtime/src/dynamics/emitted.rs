@@ -14,9 +14,7 @@ use super::{Core, Rows};
 use crate::model;
 use crate::state::all_finite;
 use crate::tolerance::{definite, negligible, passes, window};
-use crate::{
-    Acceleration, DynamicsError, Form, Mechanism, Pivots, Real, Stabilisation, State, Structure,
-};
+use crate::{Acceleration, DynamicsError, Form, Mechanism, Pivots, Real, Stabilisation, State};
 use nalgebra::SVector;
 
 /// Coordinates and constraint equations of a mechanism whose pivots fit into registers;
@@ -99,7 +97,6 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
         if !self.emitted {
             return T::zero();
         }
-        leave_out(mechanism.structure(), &self.rows, &mut solved.pivots);
         let mut squared = squared_sine(&solved.pivots, &self.rows);
         let is_finite = all_finite(&solved.acceleration);
         *acceleration = solved.acceleration;
@@ -160,11 +157,6 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
         if !provided {
             return Correcting::Lost;
         }
-        leave_out(
-            mechanism.structure(),
-            &self.rows,
-            &mut self.correction.pivots,
-        );
         let squared = squared_sine(&self.correction.pivots, &self.rows);
         if squared < self.session.trial.lowest {
             self.session.trial.lowest = squared;
@@ -240,18 +232,6 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
         let (most, round_off) = (negligible::<T>(), T::EPSILON);
         moved <= most * most * coordinate_scale
             && moved * turned <= round_off * round_off * coordinate_scale * whole
-    }
-}
-
-/// Rows that emitted code leaves out have no pivots: they say nothing of dependence.
-#[inline(always)]
-fn leave_out<T: Real, const N: usize, const R: usize>(
-    structure: &Structure,
-    rows: &Rows<T, R>,
-    pivots: &mut Pivots<T, N, R>,
-) {
-    for &row in structure.redundant {
-        pivots.row_pivots[row] = rows.size(row);
     }
 }
 

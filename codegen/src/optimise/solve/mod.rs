@@ -16,8 +16,8 @@
 //! `M + AᵀWA` with the weights that are given at run time. The solution is the same: since
 //! `A x` is known, only `λ` changes.
 //!
-//! Rows that follow from others wherever the constraints hold are left out, and have neither
-//! multipliers nor pivots.
+//! Rows that follow from others wherever the constraints hold are left out: they have no
+//! multipliers, and pivots that are never the smallest.
 
 mod algebra;
 mod factors;
@@ -28,6 +28,7 @@ mod shared;
 
 use super::dead::ordered;
 use super::program::{Operation, Program, Slot, Value, cost};
+use crate::expr::Number;
 use crate::model::Symbol;
 use algebra::{Algebra, Entry, Signed, Sparse};
 use factors::Factors;
@@ -63,6 +64,10 @@ impl Layout<'_> {
         (0..self.r).filter(is_independent).collect()
     }
 }
+
+/// What stands for the pivot of a row that is left out: large beside the size of any row, and
+/// finite in single precision beside the smallest.
+const NO_PIVOT: i64 = 1_000_000_000_000_000_000;
 
 /// What equations there are.
 struct Given<'a> {
@@ -289,6 +294,7 @@ impl System {
             left_out,
             ..
         } = self;
+        let no_pivot = (false, algebra.number(Number::integer(NO_PIVOT)));
         let mut outputs: Vec<(Slot, Value)> = Vec::new();
         let is_kept = |(slot, _): &&(Slot, Value)| kept.contains(&slot.array);
         outputs.extend(program.outputs.iter().filter(is_kept));
@@ -316,10 +322,11 @@ impl System {
             }
         }
         let solved = independent.iter().copied().zip(rows);
-        let solved = solved.map(|(row, &(pivot, whole))| (row, Some(pivot), whole));
-        let left_out = left_out.into_iter().map(|(row, whole)| (row, None, whole));
+        let solved = solved.map(|(row, &(pivot, whole))| (row, pivot, whole));
+        let left_out = left_out.into_iter();
+        let left_out = left_out.map(|(row, whole)| (row, no_pivot, whole));
         for (row, pivot, whole) in solved.chain(left_out) {
-            write("row_pivots", row, pivot);
+            write("row_pivots", row, Some(pivot));
             // A row is compared with its own past, which a correction tells.
             if kept.contains(&ROW_SQUARES) {
                 write(ROW_SQUARES, row, Some(whole));
