@@ -263,7 +263,8 @@ fn sample_mass<T: Real>(
             }
         }
     }
-    if !named.is_empty() {
+    // Wherever rows take part in the metric they weigh as much as what they connect.
+    if !named.is_empty() || !definite {
         observe_ratios(solver, state, turned);
     }
     let mut learning = solver.learn();

@@ -1,5 +1,7 @@
-//! A mass matrix that is singular at some positions only.
+//! A mass matrix that is singular, at some positions or at all of them.
 
+use bricard_runtime::{Form, Interface, Options, Summary, assemble, simulate};
+use bricard_singular::descriptions::leg::Leg;
 use bricard_singular::{Score, Trial, judge};
 
 /// Demands right rows, and the right number of passages.
@@ -42,4 +44,26 @@ fn crank_and_coupler_with_a_mass_at_their_end_pass_where_they_could_fold() {
             is_right(Trial { tolerance, ..trial });
         }
     }
+}
+
+/// A ratio that is one at the start has no inertia there, though it has some everywhere else: rows
+/// weigh as much as what they connect elsewhere.
+#[test]
+fn a_length_without_inertia_costs_no_steps() {
+    let leg = Leg::default();
+    let start = assemble(&leg, &leg.start(), 0.0).expect("the start assembles");
+    let of = |form| -> Summary<f64, 5> {
+        let mut options = Options::dop853(0.1, 1e-9);
+        options.settings.form = form;
+        simulate(&leg, &start, &options, &mut []).expect("the run ends")
+    };
+    let (reduced, full) = (of(Form::Reduced), of(Form::Full));
+    assert!(
+        reduced.steps <= full.steps + full.steps / 2,
+        "{} steps, and {} in the other form",
+        reduced.steps,
+        full.steps
+    );
+    let apart = (reduced.end.q - full.end.q).amax();
+    assert!(apart < 1e-8, "{apart:e}");
 }
