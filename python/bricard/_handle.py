@@ -3,12 +3,51 @@
 from __future__ import annotations
 
 import ctypes
-from typing import List, NamedTuple, Optional, Tuple
+import threading
+from typing import Callable, Dict, List, NamedTuple, Optional, Set, Tuple
 
 import numpy as np
 
 from . import _abi
 from .errors import AssemblyError, BricardError, InvalidValue, SimulationError, UnknownName
+
+
+_IN_TURN = (
+    "the function of an input asks its own mechanism, which asks the function in turn; let it "
+    "ask a copy: `model = m.copy()` before `m.drive`"
+)
+
+
+class Law:
+    """A function that an input follows, as the library calls it."""
+
+    def __init__(self, function: Callable[..., float], takes_state: bool, sizes: Tuple[int, int]):
+        self.function, self.takes_state = function, takes_state
+        self.n, self.m = sizes[0], sum(sizes)
+        #: What it has raised: it must not cross the library, and comes out when that returns.
+        self.raised: List[BaseException] = []
+        self.callback = _abi.Law(self.value)
+        #: The threads in which it is at work.
+        self._at_work: Set[int] = set()
+
+    def value(self, _user, t, q, v, out) -> int:
+        if self.raised:
+            # A call that fails anyway asks once more here and there.
+            return 1
+        thread = threading.get_ident()
+        if thread in self._at_work:
+            self.raised.append(BricardError(_IN_TURN))
+            return 1
+        self._at_work.add(thread)
+        try:
+            state = (np.array(q[: self.n]), np.array(v[: self.m])) if self.takes_state else ()
+            out[0] = self.function(t, *state)
+            return 0
+        except BaseException as error:
+            self.raised.append(error)
+            return 1
+        finally:
+            self._at_work.discard(thread)
 
 
 class Quantity(NamedTuple):
@@ -25,8 +64,8 @@ class Handle:
     def __init__(self, table: "_abi.Interface", pointer: Optional[int] = None):
         self.table = table
         self._pointer = _abi.Handle(pointer)
-        #: Callbacks of inputs, which must live as long as they may be called.
-        self.laws: dict = {}
+        #: Functions of inputs, which must live as long as they may be called.
+        self.laws: Dict[int, Law] = {}
         if pointer is None and table.create(ctypes.byref(self._pointer)) != _abi.OK:
             raise BricardError("the mechanism could not be made")
 
@@ -55,18 +94,23 @@ class Handle:
 
     def run_status(self, function, *arguments) -> int:
         """Calls a function of the table; its status."""
+        for law in self.laws.values():
+            law.raised.clear()
         return function(self._pointer, *arguments)
 
     def call(self, function, *arguments) -> int:
         """Calls a function of the table; an exception if it fails."""
-        status = function(self._pointer, *arguments)
+        status = self.run_status(function, *arguments)
         if status < 0:
             raise self.error(status)
         return status
 
-    def error(self, status: int) -> BricardError:
-        """The exception of a failed call."""
+    def error(self, status: int) -> BaseException:
+        """The exception of a failed call: what a function of an input has raised, if one has."""
         message = self.message()
+        for law in self.laws.values() if status == _abi.CALLBACK else ():
+            if law.raised:
+                return law.raised.pop()
         if status == _abi.NAME:
             return UnknownName(message)
         if status == _abi.ASSEMBLY:
@@ -97,6 +141,8 @@ class Handle:
         """The place of a name in a list."""
         if not isinstance(name, str):
             raise UnknownName(f"a name is a text, not {name!r}")
+        if "\0" in name:
+            raise UnknownName(f"there is no {name!r}")
         return self.number(self.table.find, which, name.encode())
 
     def sizes(self) -> Tuple[int, int]:
@@ -112,6 +158,11 @@ class Handle:
         if self.table.state(self._pointer, *pointers, len(v)) != _abi.OK:
             return None, None, None
         return t.value, q, v
+
+    def project(self, t: float, q: np.ndarray, v: np.ndarray) -> None:
+        """Puts a state, in arrays of its own, onto the constraints."""
+        arrays = _abi.doubles(q), _abi.doubles(v)
+        self.call(self.table.project, t, *arrays, len(v))
 
     def shapes(self, t: float, q: np.ndarray, v: np.ndarray) -> List[tuple]:
         """The picture at a state: a kind, points, and a radius."""

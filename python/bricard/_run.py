@@ -30,8 +30,6 @@ class Plan(NamedTuple):
     every: Optional[float]
     reactions: bool
     on_event: Optional[Callable[..., Any]]
-    #: What functions of the program raise meanwhile.
-    raised: list
 
 
 class _Interrupt:
@@ -74,6 +72,8 @@ class _Recorder:
         self.chunks: List[np.ndarray] = []
         self.events: List[Event] = []
         self.passages: List[Passage] = []
+        #: What `on_event` has raised.
+        self.raised: List[BaseException] = []
 
     def take(self, _user, _rows, count) -> int:
         self.chunks.append(self.buffer[:count].copy())
@@ -89,8 +89,8 @@ class _Recorder:
             from .mechanism import State
 
             return int(bool(self.plan.on_event(name, State(t, q, v))))
-        except BaseException as error:  # It must not cross the boundary; `run` raises it.
-            self.plan.raised.append(error)
+        except BaseException as error:  # It must not cross the library; `run` raises it.
+            self.raised.append(error)
             return 1
 
     def passage(self, _user, t, sine, rank, regular) -> int:
@@ -140,10 +140,8 @@ def run(mechanism: "Mechanism", handle: Handle, plan: Plan, inside: int = 0) -> 
     del take, event, passage, go_on
     told = Summary.of(summary, status == _abi.STOPPED)
     result = Result(mechanism, recorder, told, beginning, plan, columns)
-    if plan.raised:
-        error = plan.raised[0]
-        plan.raised.clear()
-        raise error
+    if recorder.raised:
+        raise recorder.raised[0]
     if status < 0:
         error = handle.error(status)
         if isinstance(error, SimulationError):

@@ -8,19 +8,20 @@ import os
 import re
 import tempfile
 import threading
+from contextlib import contextmanager
 from pathlib import Path
-from typing import Any, Callable, Dict, Mapping, NamedTuple, Optional, Sequence, Tuple, Union
+from typing import Any, Callable, Dict, Iterator, List, Mapping, NamedTuple, Optional, Sequence, Tuple, Union
 
 import numpy as np
 
 from . import _abi, _compile
-from ._handle import Handle, Quantity, point_of
+from ._handle import Handle, Law, Quantity, point_of
 from ._run import Plan, run
 from .errors import InvalidValue
 from .result import Result
 
 Numbers = Union[Sequence[float], np.ndarray]
-Law = Union[float, Callable[..., float]]
+Given = Union[float, Callable[..., float]]
 
 
 class State(NamedTuple):
@@ -72,7 +73,10 @@ class Mechanism:
                 )
             path = _compile.compiled(os.fspath(path.resolve()))
         self._lock = threading.Lock()
+        #: It is only copied and asked what it has, so that it is never at work.
         self._handle = Handle(_compile.interface(path))
+        #: Copies of it that are at nobody's work.
+        self._idle: List[Handle] = []
         lists = (
             _abi.MECHANISM,
             _abi.COORDINATES,
@@ -123,12 +127,24 @@ class Mechanism:
         copy = object.__new__(type(self))
         copy.__dict__.update(self.__dict__)
         copy._lock = threading.Lock()
-        copy._handle = self._clone()
+        copy._handle, copy._idle = self._clone(), []
         return copy
 
     def _clone(self) -> Handle:
         with self._lock:
             return self._handle.clone()
+
+    @contextmanager
+    def _lend(self) -> Iterator[Handle]:
+        """A copy that does nothing else meanwhile: several threads may ask at once, and the
+        function of an input its own mechanism."""
+        with self._lock:
+            idle = self._idle
+            handle = idle.pop() if idle else self._handle.clone()
+        try:
+            yield handle
+        finally:
+            idle.append(handle)
 
     # ---- parameters and inputs ---------------------------------------------------------
 
@@ -151,16 +167,17 @@ class Mechanism:
             # A copy is changed and taken, so that what is refused changes nothing.
             handle = self._handle.clone()
             _set_parameters(handle, {**(parameters or {}), **more})
-            self._handle = handle
+            self._handle, self._idle = handle, []
 
-    def drive(self, inputs: Mapping[str, Optional[Law]]) -> None:
+    def drive(self, inputs: Mapping[str, Optional[Given]]) -> None:
         """Holds inputs at numbers, or lets them follow functions ``f(t)`` or
         ``f(t, q, v)``; `None` returns one to the law of the description. If one is refused,
-        none is changed."""
+        none is changed. A function that asks a mechanism for masses or forces asks a copy,
+        which doesn't ask the function in turn."""
         with self._lock:
             handle = self._handle.clone()
-            _drive(handle, inputs, [])
-            self._handle = handle
+            _drive(handle, inputs)
+            self._handle, self._idle = handle, []
 
     # ---- where it can be ---------------------------------------------------------------
 
@@ -179,9 +196,8 @@ class Mechanism:
     def project(self, q: Numbers, v: Optional[Numbers] = None, t: float = 0.0) -> State:
         """The state on the constraints next to one that is near them."""
         q, v = self._state(q, v)
-        with self._lock:
-            arrays = _abi.doubles(q), _abi.doubles(v)
-            self._handle.call(self._handle.table.project, float(t), *arrays, self.m)
+        with self._lend() as handle:
+            handle.project(float(t), q, v)
         return State(float(t), q, v)
 
     # ---- the equations of motion: M a + r = p1, A a = p2 ---------------------------------
@@ -264,8 +280,7 @@ class Mechanism:
 
     def _evaluate(self, which: int, q: Numbers, v: Optional[Numbers], t: float) -> np.ndarray:
         q, v = self._state(q, v)
-        with self._lock:
-            handle = self._handle
+        with self._lend() as handle:
             out = np.zeros(handle.number(handle.table.size, which))
             point = point_of(float(t), q, v)
             at = ctypes.byref(point)
@@ -285,7 +300,7 @@ class Mechanism:
         every: Optional[float] = None,
         parameters: Optional[Mapping[str, float]] = None,
         start: Union[Mapping[str, float], State, None] = None,
-        inputs: Optional[Mapping[str, Optional[Law]]] = None,
+        inputs: Optional[Mapping[str, Optional[Given]]] = None,
         t0: float = 0.0,
         form: str = "reduced",
         stabilisation: Union[str, Tuple[str, float, float]] = "projection",
@@ -319,9 +334,8 @@ class Mechanism:
         Ctrl-C ends a run with KeyboardInterrupt. A `SimulationError` has the rows so far.
         """
         handle = self._clone()
-        raised: list = []
         _set_parameters(handle, parameters or {})
-        _drive(handle, inputs or {}, raised)
+        _drive(handle, inputs or {})
         _choose(handle, method, step, rtol, atol, form, stabilisation, keep_energy, most_steps)
         if isinstance(start, State):
             q, v = self._state(start.q, start.v)
@@ -331,7 +345,7 @@ class Mechanism:
             _begin(handle, start, t0)
         if every is not None and not (np.isfinite(every) and every > 0):
             raise InvalidValue(f"every has to be a positive number of seconds, not {every}")
-        plan = Plan(float(until), every, reactions, on_event, raised)
+        plan = Plan(float(until), every, reactions, on_event)
         return run(self, handle, plan)
 
 
@@ -348,22 +362,22 @@ def _number(value: Any, name: str) -> float:
         raise InvalidValue(f"`{name}` has to be a number, not {value!r}") from None
 
 
-def _drive(handle: Handle, inputs: Mapping[str, Optional[Law]], raised: list) -> None:
+def _drive(handle: Handle, inputs: Mapping[str, Optional[Given]]) -> None:
     for name, law in inputs.items():
         index = handle.find(_abi.INPUTS, name)
         if law is None:
             handle.call(handle.table.release_input, index)
             handle.laws.pop(index, None)
         elif callable(law):
-            callback = _law(name, law, handle.sizes(), raised)
-            handle.call(handle.table.drive_input, index, callback, None)
-            handle.laws[index] = callback
+            followed = _law(name, law, handle.sizes())
+            handle.call(handle.table.drive_input, index, followed.callback, None)
+            handle.laws[index] = followed
         else:
             handle.call(handle.table.hold_input, index, _number(law, name))
             handle.laws.pop(index, None)
 
 
-def _law(name: str, law: Callable[..., float], sizes: Tuple[int, int], raised: list) -> Any:
+def _law(name: str, law: Callable[..., float], sizes: Tuple[int, int]) -> Law:
     """A function that the library calls at the stages of steps."""
     try:
         parameters = inspect.signature(law).parameters.values()
@@ -375,21 +389,7 @@ def _law(name: str, law: Callable[..., float], sizes: Tuple[int, int], raised: l
         raise InvalidValue(
             f"the function of the input `{name}` takes (t) or (t, q, v), not {count} arguments"
         )
-
-    n, m = sizes[0], sum(sizes)
-
-    def value(_user, t, q, v, out) -> int:
-        try:
-            if count == 1:
-                out[0] = law(t)
-            else:
-                out[0] = law(t, np.array(q[:n]), np.array(v[:m]))
-            return 0
-        except BaseException as error:  # It must not cross the boundary; `run` raises it.
-            raised.append(error)
-            return 1
-
-    return _abi.Law(value)
+    return Law(law, count == 3, sizes)
 
 
 _VELOCITY = re.compile(r"\s*der\((.*)\)\s*")

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import threading
 from typing import TYPE_CHECKING, Any, Dict, Iterator, List, NamedTuple, Optional, Tuple, Union
 
 import numpy as np
@@ -85,6 +86,7 @@ class Result:
         self._rows = recorder.rows()
         self._columns, self._units, self._energies = _named(mechanism, columns)
         self._dense: Optional[Tuple[np.ndarray, np.ndarray]] = None
+        self._lock = threading.RLock()
 
     # ---- columns -------------------------------------------------------------------------
 
@@ -153,14 +155,17 @@ class Result:
         """The state at any time of the run, from the polynomials of its steps.
 
         For an array of times `q` and `v` have a row for each. States are brought back onto
-        the constraints unless `project` is false. Asking the first time runs the motion
+        the constraints, as they were in the run, unless `project` is false. Asking the first time runs the motion
         again: functions of inputs have to give the same values as before.
         """
         from .mechanism import State
 
         times = np.asarray(t, dtype=float)
         flat = np.atleast_1d(times)
-        first, last = float(self._beginning.state_if_any()[0]), self.summary.t
+        with self._lock:
+            handle = self._beginning.clone()
+            self._points()
+        first, last = float(handle.state_if_any()[0]), self.summary.t
         if flat.size and not (flat.min() >= first and flat.max() <= last):
             from .errors import InvalidValue
 
@@ -171,7 +176,7 @@ class Result:
         q, v = states[:, :n].copy(), states[:, n:].copy()
         if project and self.mechanism.r:
             for row, x in enumerate(flat):
-                _, q[row], v[row] = self.mechanism.project(q[row], v[row], x)
+                handle.project(x, q[row], v[row])
         if times.ndim == 0:
             return State(float(times), q[0], v[0])
         return State(times, q, v)

@@ -18,6 +18,7 @@ mod placement;
 mod scan;
 mod segments;
 mod simulate;
+mod spans;
 mod stiff;
 mod vanishing_gradient;
 mod words;

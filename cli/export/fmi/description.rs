@@ -189,8 +189,13 @@ fn references(element: &str, places: &[usize]) -> String {
     places.iter().map(one).collect()
 }
 
-/// A text as XML has it within quotes.
+/// A text as XML has it within quotes, where characters that it forbids are spaces.
 fn escaped(text: &str) -> String {
+    let allowed = |c| match c {
+        '\0'..='\u{8}' | '\u{b}' | '\u{c}' | '\u{e}'..='\u{1f}' | '\u{fffe}' | '\u{ffff}' => ' ',
+        _ => c,
+    };
+    let text: String = text.chars().map(allowed).collect();
     text.replace('&', "&amp;")
         .replace('<', "&lt;")
         .replace('>', "&gt;")

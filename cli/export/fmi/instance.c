@@ -126,10 +126,16 @@ static Status complain(Instance *x, Status status, const char *message)
     return status;
 }
 
-/* The status of a call of bricard.h. */
+/* The status of a call of bricard.h about one of its mechanisms, that of the instance or of a
+   copy. */
+static Status done_by(Instance *x, bricard *m, bricard_status status)
+{
+    return status < 0 ? complain(x, ERROR, bricard_message(m)) : OK;
+}
+
 static Status done(Instance *x, bricard_status status)
 {
-    return status < 0 ? complain(x, ERROR, bricard_message(x->m)) : OK;
+    return done_by(x, x->m, status);
 }
 
 /* Refuses a call that comes out of order. */
@@ -303,10 +309,20 @@ static Status set_free(Instance *x)
 
 /* ---- values --------------------------------------------------------------------------------- */
 
+/* Evaluates a quantity at the state at hand. Where there is none at one that an integrator
+   tries, it may try another one. */
+static Status evaluate_here(Instance *x, int quantity, size_t size)
+{
+    if (!x->is_cosimulation)
+        return evaluate(x, quantity, size) < 0 ? complain(x, DISCARD, bricard_message(x->m)) : OK;
+    return done(x, evaluate(x, quantity, size));
+}
+
 /* The energies, outputs, … that are evaluated together. */
 static Status value(Instance *x, int kind, size_t place, double *out)
 {
     int held;
+    Status status;
     switch (kind) {
     case Q:
         *out = x->q[place];
@@ -321,24 +337,24 @@ static Status value(Instance *x, int kind, size_t place, double *out)
         *out = x->t;
         return OK;
     case A:
-        TRY(x, evaluate(x, BRICARD_ACCELERATION, x->n));
+        status = evaluate_here(x, BRICARD_ACCELERATION, x->n);
         break;
     case RATE_Z:
-        TRY(x, evaluate(x, BRICARD_ACCELERATION, x->n));
+        status = evaluate_here(x, BRICARD_ACCELERATION, x->n);
         place += x->f;
         break;
     case R:
-        TRY(x, evaluate(x, BRICARD_REACTION, x->n));
+        status = evaluate_here(x, BRICARD_REACTION, x->n);
         break;
     case OUTPUT:
-        TRY(x, evaluate(x, BRICARD_OUTPUT, x->outputs));
+        status = evaluate_here(x, BRICARD_OUTPUT, x->outputs);
         break;
     case INDICATOR:
-        TRY(x, evaluate(x, BRICARD_EVENT, x->events));
+        status = evaluate_here(x, BRICARD_EVENT, x->events);
         break;
     case KINETIC:
     case POTENTIAL:
-        TRY(x, evaluate(x, BRICARD_ENERGY, 4));
+        status = evaluate_here(x, BRICARD_ENERGY, 4);
         place = kind == POTENTIAL;
         break;
     case PARAMETER:
@@ -355,8 +371,9 @@ static Status value(Instance *x, int kind, size_t place, double *out)
         *out = x->u[place];
         return OK;
     }
-    *out = x->room[place];
-    return OK;
+    if (status == OK)
+        *out = x->room[place];
+    return status;
 }
 
 /* Whether a variable is known without a state. */
@@ -368,23 +385,28 @@ static int is_given(int kind)
 static Status get(Instance *x, const unsigned int references[], size_t count, double values[])
 {
     size_t i, at;
+    Status status;
     for (i = 0; i < count; i++) {
         int kind = place_of(x, references[i], &at);
         if (kind == KINDS)
             return complain(x, ERROR, "there is no variable of this value reference");
         if (!is_given(kind) && place(x) != OK)
             return ERROR;
-        if (value(x, kind, at, &values[i]) != OK)
-            return ERROR;
+        status = value(x, kind, at, &values[i]);
+        if (status != OK)
+            return status;
     }
     return OK;
 }
 
+/* A velocity that the host sets to another value is held; so is a position that the description
+   holds, and a guess remains one. Hosts that set all variables to what they are change nothing. */
 static Status set_start(Instance *x, size_t at, int velocity, double number)
 {
     double before;
     int held;
     TRY(x, bricard_start(x->m, at, velocity, &before, &held));
+    held |= velocity && number != before;
     TRY(x, bricard_set_start(x->m, at, velocity, number, held));
     return OK;
 }
@@ -507,7 +529,7 @@ static Status directional(Instance *x, const unsigned int unknown[], size_t unkn
 /* ---- snapshots ------------------------------------------------------------------------------ */
 
 /* The head of what is written of an instance, before the numbers of the mechanism. */
-enum { HEAD = 6 };
+enum { HEAD = 8 };
 
 static Status become(Instance *x, const Instance *y)
 {
@@ -555,9 +577,11 @@ static Status write_down(Instance *x, const Instance *y, void *bytes, size_t siz
 {
     size_t wanted = 0;
     double *numbers, *next;
+    bricard_options options;
     bricard_status saved;
     if (written_size(x, &wanted) != OK || !y || size < wanted)
         return complain(x, ERROR, "there is no such state, or no room for it");
+    TRY(x, bricard_get_options(y->m, &options));
     numbers = (double *)malloc(wanted);
     if (!numbers)
         return complain(x, ERROR, "there is no memory for the state");
@@ -567,6 +591,8 @@ static Status write_down(Instance *x, const Instance *y, void *bytes, size_t siz
     numbers[3] = y->t;
     numbers[4] = y->begin;
     numbers[5] = y->stop;
+    numbers[6] = options.rtol;
+    numbers[7] = options.atol;
     next = numbers + HEAD;
     memcpy(next, y->q, x->f * sizeof(double));
     next += x->f;
@@ -577,7 +603,15 @@ static Status write_down(Instance *x, const Instance *y, void *bytes, size_t siz
     saved = bricard_save(y->m, next, wanted / sizeof(double) - own_numbers(x));
     memcpy(bytes, numbers, wanted);
     free(numbers);
-    return done(x, saved);
+    return done_by(x, y->m, saved);
+}
+
+static void forget(void **state)
+{
+    if (state) {
+        release((Instance *)*state);
+        *state = NULL;
+    }
 }
 
 static Status read_back(Instance *x, const void *bytes, size_t size, void **state)
@@ -585,15 +619,20 @@ static Status read_back(Instance *x, const void *bytes, size_t size, void **stat
     Instance *y;
     size_t wanted = 0;
     double *numbers, *next;
+    bricard_options options;
     bricard_status loaded;
+    Status status;
+    const int is_new = state && !*state;
     if (written_size(x, &wanted) != OK || size != wanted)
         return complain(x, ERROR, "this is no state of this mechanism");
-    if (keep(x, state) != OK)
-        return ERROR;
-    y = (Instance *)*state;
     numbers = (double *)malloc(wanted);
     if (!numbers)
         return complain(x, ERROR, "there is no memory for the state");
+    if (keep(x, state) != OK) {
+        free(numbers);
+        return ERROR;
+    }
+    y = (Instance *)*state;
     memcpy(numbers, bytes, wanted);
     y->phase = (int)numbers[0];
     y->placed = (int)numbers[1];
@@ -609,16 +648,18 @@ static Status read_back(Instance *x, const void *bytes, size_t size, void **stat
     memcpy(y->u, next, x->inputs * sizeof(double));
     next += x->inputs;
     loaded = bricard_load(y->m, next, wanted / sizeof(double) - own_numbers(x));
-    free(numbers);
-    return done(x, loaded);
-}
-
-static void forget(void **state)
-{
-    if (state) {
-        release((Instance *)*state);
-        *state = NULL;
+    if (loaded >= 0)
+        loaded = bricard_get_options(y->m, &options);
+    if (loaded >= 0) {
+        options.rtol = numbers[6];
+        options.atol = numbers[7];
+        loaded = bricard_set_options(y->m, &options);
     }
+    free(numbers);
+    status = done_by(x, y->m, loaded);
+    if (status != OK && is_new)
+        forget(state);
+    return status;
 }
 
 /* ---- model exchange ------------------------------------------------------------------------- */
@@ -644,13 +685,6 @@ static Status check_drift(Instance *x)
     for (i = 0; i < x->r; i++)
         x->drifted |= fabs(x->room[i]) > DRIFT;
     return OK;
-}
-
-/* Evaluates a quantity at the state that an integrator tries: where there is none, it may try
-   another one. */
-static Status evaluate_trial(Instance *x, int quantity, size_t size)
-{
-    return evaluate(x, quantity, size) < 0 ? complain(x, DISCARD, bricard_message(x->m)) : OK;
 }
 
 /* Refuses a number of states or indicators that is another. */
@@ -682,7 +716,7 @@ static Status get_derivatives(Instance *x, double derivatives[], size_t count)
     Status status;
     if (counted(x, count, x->f + x->n) != OK || place(x) != OK)
         return ERROR;
-    status = evaluate_trial(x, BRICARD_ACCELERATION, x->n);
+    status = evaluate_here(x, BRICARD_ACCELERATION, x->n);
     if (status != OK)
         return status;
     memcpy(derivatives, x->v, x->f * sizeof(double));
@@ -705,7 +739,7 @@ static Status get_indicators(Instance *x, double indicators[], size_t count)
     Status status;
     if (counted(x, count, x->events) != OK || place(x) != OK)
         return ERROR;
-    status = evaluate_trial(x, BRICARD_EVENT, x->events);
+    status = evaluate_here(x, BRICARD_EVENT, x->events);
     if (status == OK)
         memcpy(indicators, x->room, count * sizeof(double));
     return status;
@@ -719,6 +753,9 @@ static Status go_on(Instance *x, double t, double step)
         return complain(x, ERROR, "a step begins where the last one ended, and goes on");
     if (t + step - x->stop > 1e-9 * (1.0 + fabs(x->stop)))
         return complain(x, ERROR, "a step goes beyond the stop time of the experiment");
+    /* What is left of sums of steps may end at the time that it is, or a trifle before. */
+    if (!(t + step > x->t))
+        return OK;
     TRY(x, bricard_step(x->m, t + step - x->t));
     TRY(x, bricard_state(x->m, &x->t, x->q, x->v, x->n));
     return OK;

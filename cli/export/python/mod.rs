@@ -41,13 +41,9 @@ const EXAMPLE: &str = include_str!("example.py");
 /// The version of what is exported.
 const VERSION: &str = "0.1.0";
 
-/// Words that no module of Python can be called by, and the package that all of them import.
-const TAKEN: [&str; 36] = [
-    "and", "as", "assert", "async", "await", "bricard", "break", "class", "continue", "def", "del",
-    "elif", "else", "except", "finally", "for", "from", "global", "if", "import", "in", "is",
-    "lambda", "nonlocal", "not", "numpy", "or", "pass", "raise", "return", "test", "try", "typing",
-    "while", "with", "yield",
-];
+/// Words of Python, the modules that it has itself, and the packages that all exports import: no
+/// package can be called so.
+const TAKEN: &str = include_str!("taken.txt");
 
 /// Writes the wheel into a folder.
 ///
@@ -99,7 +95,7 @@ pub fn export(subject: &Description, out: Option<&Path>) -> Result<(), CommandEr
 
 /// The name of the package of a module.
 fn package(module: &str) -> String {
-    match TAKEN.contains(&module) {
+    match TAKEN.split_whitespace().any(|taken| taken == module) {
         true => format!("{module}_mechanism"),
         false => module.to_string(),
     }
@@ -164,7 +160,9 @@ mod tests {
 
     #[test]
     fn no_package_is_called_by_a_word_of_python() {
-        assert_eq!(package("lambda"), "lambda_mechanism");
+        for taken in ["lambda", "time", "queue", "numpy"] {
+            assert_eq!(package(taken), format!("{taken}_mechanism"));
+        }
         assert_eq!(package("four_bar"), "four_bar");
     }
 

@@ -263,7 +263,7 @@ impl<T: Real> Control<T> {
     /// there if it is less than two steps away, so that no tiny step remains.
     pub(crate) fn end(&self, t: T, bound: T) -> Result<T, IntegrateError<T>> {
         let left = bound - t;
-        if self.h * T::from_f64(1.0 + STRETCH) >= left {
+        if self.h * T::from_f64(1.0 + STRETCH) >= left || is_lost(left, t, bound) {
             return Ok(bound);
         }
         let two = T::from_f64(2.0);
@@ -272,12 +272,16 @@ impl<T: Real> Control<T> {
         } else {
             self.h
         };
-        let resolution = T::EPSILON * t.abs().max(bound.abs());
-        if h > resolution * T::from_f64(SMALLEST_STEP) {
-            Ok(t + h)
-        } else {
-            Err(IntegrateError::StepUnderflow { t, h })
+        match is_lost(h, t, bound) {
+            true => Err(IntegrateError::StepUnderflow { t, h }),
+            false => Ok(t + h),
         }
+    }
+
+    /// Whether nothing tells how long the next step is to be: none was made, or only such as end
+    /// where a caller wanted, too soon to tell.
+    pub(crate) fn is_unknown(&self, t: T, bound: T) -> bool {
+        is_lost(self.h, t, bound)
     }
 
     /// Judges a trial step of length `h` by its error in units of the tolerance,
@@ -317,4 +321,10 @@ impl<T: Real> Control<T> {
         self.short = if is_short { self.short + 1 } else { 0 };
         true
     }
+}
+
+/// Whether a step is lost in the round-off of time on the way to a bound.
+fn is_lost<T: Real>(h: T, t: T, bound: T) -> bool {
+    let resolution = T::EPSILON * t.abs().max(bound.abs());
+    h <= resolution * T::from_f64(SMALLEST_STEP)
 }

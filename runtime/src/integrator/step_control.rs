@@ -225,7 +225,7 @@ impl<T: Real, const N: usize> Steps<T, N> {
             });
         };
         let t = step.start.t;
-        if adaptive.control.h <= T::zero() {
+        if adaptive.control.is_unknown(t, bound) {
             adaptive.control.h = adaptive.first_step(system, step, acceleration, bound);
         }
         // What stood in the way of the last trial, to be reported if no step is

@@ -33,9 +33,14 @@ impl<T: Real> Grid<T> {
         if !(span >= T::zero() && span.is_finite()) {
             return Err(SimulateError::BadEnd { start, until });
         }
-        let step = match step_control {
-            StepControl::Adaptive { .. } => span,
-            StepControl::Fixed { step } => step,
+        let StepControl::Fixed { step } = step_control else {
+            // However short it is: what is left of a run by round-off is one step.
+            return Ok(Self {
+                start,
+                until,
+                step: span,
+                intervals: u64::from(span > T::zero()),
+            });
         };
         let (begin, end) = (start.abs(), until.abs());
         let farthest = if begin > end { begin } else { end };
