@@ -42,6 +42,7 @@ mod reduction;
 mod redundant;
 mod reference;
 mod resume;
+mod single_precision;
 mod skipping;
 mod source;
 mod starts;

@@ -15,6 +15,9 @@ const AT_ONCE: f64 = 1e-6;
 /// step is off by about one tolerance, relative to the range of the coordinates, of which a step is
 /// a part.
 const TOLERANCES: f64 = 10.0;
+/// The same in round-off of the positions of a step, and in that of its times.
+const ROUND_OFFS: f64 = 256.0;
+const ROUND_OFFS_OF_TIME: f64 = 16.0;
 /// By how much the inside of a step may be beyond a singular configuration that the motion only
 /// touches: in tolerances, and in least errors of an interpolation where steps are fixed. By
 /// experiment, with laws that turn there.
@@ -56,7 +59,11 @@ impl<T: Real> Searched<'_, T> {
     /// Passages that are no farther apart than this (s) happen at once.
     pub(super) fn at_once(&self) -> T {
         let known = self.tolerance.unwrap_or_default() * T::from_f64(TOLERANCES);
-        self.length * known.max(T::from_f64(AT_ONCE))
+        let resolved = T::EPSILON * T::from_f64(ROUND_OFFS);
+        let part = known.max(T::from_f64(AT_ONCE)).max(resolved);
+        let end = (self.start.t + self.length).abs();
+        let time = self.start.t.abs().max(end) * T::EPSILON * T::from_f64(ROUND_OFFS_OF_TIME);
+        (self.length * part).max(time)
     }
 
     /// The sine up to which the inside of the step does not tell on which side of a singular
@@ -133,8 +140,8 @@ impl<T: Real> Found<T> {
         }
     }
 
-    /// Adds the passages of one of several parts of a mechanism, whose constraints have this
-    /// rank together.
+    /// Adds the passages of one of several parts of a mechanism, or of different loops, whose
+    /// constraints have this rank together.
     pub(super) fn add(&mut self, others: &Self, regular: usize) {
         for passage in others.iter() {
             let lost = passage.regular - passage.rank;

@@ -200,12 +200,30 @@ impl<T: Real> Sheet<'_, T> {
             Some(middle) => {
                 let changes = middle.signs.changes_from(base, workspace);
                 let middle = (&middle, changes);
-                self.find_between(&search, base, [ends[0], middle], false, found, workspace);
-                self.find_between(&search, base, [middle, ends[1]], false, found, workspace);
+                self.find_of_loops(&search, base, [ends[0], middle], found, workspace);
+                self.find_of_loops(&search, base, [middle, ends[1]], found, workspace);
             }
-            None => self.find_between(&search, base, ends, false, found, workspace),
+            None => self.find_of_loops(&search, base, ends, found, workspace),
         }
         Some(())
+    }
+
+    /// Passages between two times. Those of different loops that happen at once are one, also where
+    /// a division of the interval came to lie between them.
+    fn find_of_loops(
+        &mut self,
+        search: &Search<'_, T>,
+        base: &DeterminantSigns<'_, T>,
+        ends: [(&Elimination<'_, T>, usize); 2],
+        found: &mut Found<T>,
+        workspace: &Workspace<'_, T>,
+    ) {
+        if ends[0].1.abs_diff(ends[1].1) < 2 {
+            return self.find_between(search, base, ends, false, found, workspace);
+        }
+        let mut of_loops = Found::new(search.step);
+        self.find_between(search, base, ends, false, &mut of_loops, workspace);
+        found.add(&of_loops, self.constraints());
     }
 
     /// Eliminates the constraints at a time within a step.
