@@ -209,7 +209,7 @@ impl Point {
             Symbol::Input(i) => self.inputs[i as usize],
             Symbol::Acceleration(i) => self.accelerations[i as usize],
             Symbol::Multiplier(i) => self.multipliers[i as usize],
-            Symbol::Weight(_) => unreachable!("only solves have weights"),
+            Symbol::Weight(_) | Symbol::Tabulated(_) => unreachable!("equations have none"),
             Symbol::Follows(_) => f64::from(self.follows),
         }
     }

@@ -183,3 +183,26 @@ fn long_functions_are_emitted_in_parts() {
     settings.options.straight_line = Some(60);
     assert!(part(&compiled(&settings)) > 2);
 }
+
+/// Gravity turns each joint of a chain by the weight of all bodies behind it: by other numbers at
+/// each joint, though what is done with them is the same.
+#[test]
+fn numbers_that_differ_between_turns_are_entries_of_a_table() {
+    let source = include_str!("fixtures/rows/joints.mech");
+    let lines = |joints: usize| {
+        let source = source.replace("const N = 64;", &format!("const N = {joints};"));
+        let settings = CompileSettings::default();
+        let compiled = bricard_codegen::compile_source(&source, "chain", "x.mech", &settings);
+        let code = compiled.expect("a chain").code;
+        let (_, rest) = code.split_once("fn acceleration(").expect("a solve");
+        let (function, _) = rest.split_once(" fn ").expect("others");
+        assert!(function.contains("static NUMBERS: [[f64; 2]; "), "{joints}");
+        function.lines().count()
+    };
+    let (few, many) = (lines(100), lines(150));
+    // A line or two for each of the numbers of a joint, and for its angle.
+    assert!(
+        many - few < 50 * 10,
+        "{few} lines, {many} of half as many joints more"
+    );
+}

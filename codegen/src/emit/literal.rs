@@ -21,6 +21,12 @@ pub(super) fn number(value: Number) -> TokenStream {
     }
 }
 
+/// The two parts of a number, exact together.
+pub(super) fn parts(value: Number) -> (TokenStream, TokenStream) {
+    let (high, low) = value.parts();
+    (float(high), float(low))
+}
+
 /// A finite float in its shortest form; the sign is an operator, since a negative
 /// literal would print as two operators behind a minus.
 fn float(value: f64) -> TokenStream {

@@ -11,9 +11,11 @@ use super::column::Columns;
 use super::function::{Decided, Place, Symbols};
 use super::index::{Index, Target, turn};
 use super::name::Names;
+use super::numbers::{Tabulated, WithTable};
 use super::statements::Statements;
 use super::step::{Angles, Reference, Step, Steps};
 use super::turns::{Block, Found, Loop, Stride, distance};
+use crate::expr::Number;
 use crate::model::Symbol;
 use crate::optimise::{Program, Slot};
 use proc_macro2::{Ident, Literal, TokenStream};
@@ -28,9 +30,14 @@ const WRITES_MIN: usize = 8;
 /// The most steps that may be left: compilers take too long for more.
 const LEFT_MAX: usize = 10_000;
 
+/// A table of numbers pays where at most so many of four steps are left with it, and is tried where
+/// so many are left without.
+const OF_FOUR_WITH_TABLE: usize = 3;
+const LEFT_MANY: usize = 64;
+
 /// A program with loops.
 pub(super) struct Loops<'a> {
-    symbols: &'a dyn Symbols,
+    symbols: WithTable<'a>,
     steps: Steps,
     found: Found,
 }
@@ -44,19 +51,35 @@ impl<'a> Loops<'a> {
         names: Names,
         decided: Decided,
     ) -> Option<Self> {
-        let steps = Steps::of(program, symbols, names, decided);
-        let found = Found::of(&steps);
-        let length = |block: &Block| match block {
-            Block::Straight(range) => range.len(),
-            Block::Loop(repeated) => repeated.first.len(),
+        let plain = Self::with(program, (symbols, Vec::new()), names.clone(), decided);
+        let left = plain.found.left();
+        let tabulated = match left > LEFT_MANY {
+            true => Tabulated::of(program, symbols, names.clone(), decided),
+            false => None,
         };
-        let left: usize = found.blocks.iter().map(length).sum();
-        let pays = 4 * left <= OF_FOUR * steps.list.len() && left <= LEFT_MAX;
-        pays.then_some(Self {
+        let tabulated = tabulated.map(|Tabulated { program, numbers }| {
+            Self::with(&program, (symbols, numbers), names, decided)
+        });
+        let shorter = |other: &Self| 4 * other.found.left() <= OF_FOUR_WITH_TABLE * left;
+        let best = tabulated.filter(shorter).unwrap_or(plain);
+        let (left, all) = (best.found.left(), best.steps.list.len());
+        (4 * left <= OF_FOUR * all && left <= LEFT_MAX).then_some(best)
+    }
+
+    fn with(
+        program: &Program,
+        (symbols, numbers): (&'a dyn Symbols, Vec<Number>),
+        mut names: Names,
+        decided: Decided,
+    ) -> Self {
+        let symbols = WithTable::of(symbols, numbers, &mut names);
+        let steps = Steps::of(program, &symbols, names, decided);
+        let found = Found::of(&steps);
+        Self {
             symbols,
             steps,
             found,
-        })
+        }
     }
 
     /// The statements of the function.
@@ -70,13 +93,14 @@ impl<'a> Loops<'a> {
         let mut names = std::mem::take(&mut steps.names);
         let columns = Columns::of(&blocks, &steps, found, &mut names);
         let mut writer = Writer {
-            symbols,
+            symbols: &symbols,
             place,
             columns,
             definitions: &steps.definitions,
             statements: Statements::default(),
             known: FxHashSet::default(),
         };
+        writer.statements.push(symbols.table());
         if let Some(angles) = steps.angles {
             writer.angles(angles);
         }
@@ -237,7 +261,7 @@ impl Writer<'_> {
     ) -> TokenStream {
         let written = references.filter_map(|(reference, stride)| match reference {
             Reference::Written(slot) => Some(target(&slot, stride)),
-            Reference::Value(_) | Reference::Entry(_) => None,
+            Reference::Value(_) | Reference::Entry(_) | Reference::Number(..) => None,
         });
         let writes = written.zip(&step.writes);
         let assigned = writes.filter_map(|(target, (_, value))| {

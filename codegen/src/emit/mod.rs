@@ -24,6 +24,7 @@ mod list;
 mod literal;
 mod loops;
 mod name;
+mod numbers;
 mod outputs;
 mod partials;
 mod parts;

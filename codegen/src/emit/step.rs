@@ -22,6 +22,8 @@ pub(super) enum Reference {
     Value(usize),
     /// An entry of an array.
     Entry(Symbol),
+    /// A number, by the operation that reads it, and as which of its operands.
+    Number(Value, usize),
     /// The entry that the step writes.
     Written(Slot),
 }
@@ -54,7 +56,7 @@ impl Step {
             .iter()
             .filter_map(|reference| match reference {
                 Reference::Value(number) => Some(*number),
-                Reference::Entry(_) | Reference::Written(_) => None,
+                Reference::Entry(_) | Reference::Number(..) | Reference::Written(_) => None,
             })
     }
 }
@@ -85,6 +87,7 @@ enum Mark {
     Entry(Discriminant<Symbol>),
     Symbol(Symbol),
     Number(Number),
+    AnyNumber,
     Pi,
     Input(u32),
     Sum(Vec<bool>),
@@ -102,8 +105,31 @@ enum Mark {
 impl Steps {
     /// The steps of a program; `names` are the names that are taken.
     pub fn of(program: &Program, symbols: &dyn Symbols, names: Names, decided: Decided) -> Self {
+        Self::read_by(Reader::default(), program, symbols, names, decided)
+    }
+
+    /// The same, where steps that differ in numbers are of one form, and refer to the numbers.
+    pub fn alike_but_for_numbers(
+        program: &Program,
+        symbols: &dyn Symbols,
+        names: Names,
+        decided: Decided,
+    ) -> Self {
+        let reader = Reader {
+            refers_to_numbers: true,
+            ..Reader::default()
+        };
+        Self::read_by(reader, program, symbols, names, decided)
+    }
+
+    fn read_by(
+        mut reader: Reader,
+        program: &Program,
+        symbols: &dyn Symbols,
+        names: Names,
+        decided: Decided,
+    ) -> Self {
         let mut writer = Writer::of(program, symbols, names, decided);
-        let mut reader = Reader::default();
         let angles = writer.angles_together(true).map(|together| {
             let pairs = together.pairs.into_iter();
             let pairs = pairs.map(|(sin, cos)| [sin, cos].map(|name| reader.define(name)));
@@ -141,6 +167,8 @@ struct Reader {
     definitions: Vec<Ident>,
     numbers: FxHashMap<Ident, usize>,
     forms: FxHashMap<Vec<Mark>, usize>,
+    /// Whether numbers are referred to instead of being a part of the form.
+    refers_to_numbers: bool,
 }
 
 impl Reader {
@@ -227,8 +255,13 @@ impl Reader {
     fn look(&self, writer: &Writer, value: Value, found: &mut Found) {
         let operation = writer.program.operation(value);
         found.mark(operation);
-        for operand in operation.operands() {
-            self.read(writer, operand, found);
+        for (place, operand) in operation.operands().into_iter().enumerate() {
+            match writer.program.operation(operand) {
+                Operation::Number(_) if self.refers_to_numbers => {
+                    found.refer(Mark::AnyNumber, Reference::Number(value, place));
+                }
+                _ => self.read(writer, operand, found),
+            }
         }
     }
 

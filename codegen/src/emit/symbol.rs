@@ -183,7 +183,11 @@ fn array_of(symbol: Symbol) -> Option<TokenStream> {
         Symbol::Acceleration(_) => Some(quote!(acceleration)),
         Symbol::Multiplier(_) => Some(quote!(multiplier)),
         Symbol::Weight(_) => Some(quote!(out.weights)),
-        Symbol::Time | Symbol::Parameter(_) | Symbol::Input(_) | Symbol::Follows(_) => None,
+        Symbol::Time
+        | Symbol::Parameter(_)
+        | Symbol::Input(_)
+        | Symbol::Follows(_)
+        | Symbol::Tabulated(_) => None,
     }
 }
 
@@ -231,6 +235,8 @@ impl Symbols for SymbolNames {
             Symbol::Multiplier(i) => self.multipliers[i as usize].clone(),
             Symbol::Weight(i) => self.weights[i as usize].clone(),
             Symbol::Follows(i) => self.follows[i as usize].clone(),
+            // Only loops have tables, and symbols with one: `WithTable`.
+            Symbol::Tabulated(_) => unreachable!("no table"),
         }
     }
 

@@ -116,6 +116,16 @@ impl Found {
         found
     }
 
+    /// How many steps are left to be written: those outside of loops, and those of one turn of
+    /// each loop.
+    pub fn left(&self) -> usize {
+        let length = |block: &Block| match block {
+            Block::Straight(range) => range.len(),
+            Block::Loop(repeated) => repeated.first.len(),
+        };
+        self.blocks.iter().map(length).sum()
+    }
+
     /// Makes the sines a column, and the cosines another.
     fn columns_of_angles(&mut self, steps: &Steps) {
         let Some(angles) = &steps.angles else { return };
@@ -230,6 +240,7 @@ impl Found {
                 let place = symbol.entry().unwrap_or_default();
                 Target(Group::Entry(discriminant(&symbol)), [place, 0])
             }
+            Reference::Number(..) => Target(Group::Number, [0, 0]),
             Reference::Written(slot) => Target(Group::Written, [slot.row, slot.column]),
         }
     }
@@ -246,6 +257,7 @@ enum Group {
     Column(usize),
     Single(usize),
     Entry(Discriminant<Symbol>),
+    Number,
     Written,
 }
 

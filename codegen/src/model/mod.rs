@@ -363,6 +363,7 @@ impl Mechanism {
             Symbol::Acceleration(i) => format!("der(der({}))", coordinate(i)),
             Symbol::Multiplier(i) => format!("lambda[{i}]"),
             Symbol::Weight(i) => format!("w[{i}]"),
+            Symbol::Tabulated(i) => format!("number[{i}]"),
             Symbol::Follows(i) => {
                 format!("follows({})", self.inputs[i as usize].quantity.name)
             }

@@ -35,6 +35,8 @@ pub enum Symbol {
     /// One while an external signal follows its law, zero while it is held, by the
     /// signal's index.
     Follows(u32),
+    /// A number of a table that loops of generated code read, by index.
+    Tabulated(u32),
 }
 
 impl Symbolic for Symbol {
@@ -51,7 +53,8 @@ impl Symbol {
             | Symbol::Velocity(i)
             | Symbol::Acceleration(i)
             | Symbol::Multiplier(i)
-            | Symbol::Weight(i) => Some(i as usize),
+            | Symbol::Weight(i)
+            | Symbol::Tabulated(i) => Some(i as usize),
             Symbol::Time | Symbol::Parameter(_) | Symbol::Input(_) | Symbol::Follows(_) => None,
         }
     }

@@ -91,6 +91,7 @@ fn state(symbol: Symbol) -> f64 {
         Symbol::Acceleration(_)
         | Symbol::Multiplier(_)
         | Symbol::Weight(_)
+        | Symbol::Tabulated(_)
         | Symbol::Follows(_) => {
             unreachable!("no description has {symbol:?}")
         }

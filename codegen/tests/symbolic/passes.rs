@@ -32,6 +32,7 @@ fn state(number: u32) -> impl Fn(Symbol) -> f64 {
         Symbol::Acceleration(_)
         | Symbol::Multiplier(_)
         | Symbol::Weight(_)
+        | Symbol::Tabulated(_)
         | Symbol::Follows(_) => 1.0,
     }
 }

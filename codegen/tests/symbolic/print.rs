@@ -18,6 +18,7 @@ fn name(symbol: Symbol) -> String {
         Symbol::Acceleration(_)
         | Symbol::Multiplier(_)
         | Symbol::Weight(_)
+        | Symbol::Tabulated(_)
         | Symbol::Follows(_) => {
             unreachable!("no description has {symbol:?}")
         }

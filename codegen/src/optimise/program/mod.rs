@@ -69,6 +69,27 @@ impl Operation {
         operands
     }
 
+    /// The same operation of other values, which are asked for in the order in which it reads them.
+    pub fn with_operands(&self, other: &mut dyn FnMut(Value) -> Value) -> Self {
+        match self {
+            Operation::Number(_) | Operation::Pi | Operation::Symbol(_) => self.clone(),
+            Operation::Sum(terms) => {
+                let terms = terms.iter().map(|(minus, value)| (*minus, other(*value)));
+                Operation::Sum(terms.collect())
+            }
+            Operation::Product(factors) => {
+                Operation::Product(factors.iter().map(|factor| other(*factor)).collect())
+            }
+            Operation::Input(index, x) => Operation::Input(*index, other(*x)),
+            Operation::Function(function, x) => Operation::Function(*function, other(*x)),
+            Operation::Quotient(x, y) => Operation::Quotient(other(*x), other(*y)),
+            Operation::Function2(function, x, y) => {
+                Operation::Function2(*function, other(*x), other(*y))
+            }
+            Operation::Select(test, parts) => Operation::Select(*test, parts.map(other)),
+        }
+    }
+
     /// Shows the values it reads, in order.
     pub(in crate::optimise) fn for_each_operand(&self, show: &mut dyn FnMut(Value)) {
         match self {
