@@ -126,8 +126,8 @@ fn generated_twice_is_the_same_byte_for_byte() {
 }
 
 #[test]
-fn emitted_modules_are_rust_and_switch_nothing_off_but_what_numbers_are_like() {
-    let alike = "#[allow(clippy::approx_constant)]";
+fn emitted_modules_are_rust_and_switch_nothing_off_but_what_numbers_and_loops_are_like() {
+    let alike = "#[allow(clippy::approx_constant, clippy::needless_range_loop)]";
     let forbidden = [
         "allow(", "expect(", "unwrap()", "panic!", "unsafe", "vec!", "Vec<", "Box<", "String",
         "#![", "dbg!", "println!",

@@ -97,7 +97,7 @@ pub fn module(
         .then(|| c::export(mechanism, provenance.module));
     quote! {
         #(#[doc = #docs])*
-        #[allow(clippy::approx_constant)]
+        #[allow(clippy::approx_constant, clippy::needless_range_loop)]
         pub mod #module {
             #imports
             const _: () = bricard_runtime::written_for(#format);

@@ -5,7 +5,7 @@
 /// Generated from `mechanisms/cart_pole.mech`: 2 coordinates, 0 constraint equations.
 ///
 /// Folded constants: `g = 9.81`.
-#[allow(clippy::approx_constant)]
+#[allow(clippy::approx_constant, clippy::needless_range_loop)]
 pub mod cart_pole {
     use bricard_runtime::nalgebra::{SMatrix, SVector};
     use bricard_runtime::{

@@ -9,7 +9,7 @@
 /// Generated from `mechanisms/double_four_bar.mech`: 5 coordinates, 4 constraint equations.
 ///
 /// Folded constants: `g = 9.81`, `r = 2/5`, `L = 0.7`.
-#[allow(clippy::approx_constant)]
+#[allow(clippy::approx_constant, clippy::needless_range_loop)]
 pub mod double_four_bar {
     use bricard_runtime::nalgebra::{SMatrix, SVector};
     use bricard_runtime::{

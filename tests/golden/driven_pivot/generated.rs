@@ -8,7 +8,7 @@
 /// Generated from `mechanisms/driven_pivot.mech`: 2 coordinates, 1 constraint equations.
 ///
 /// Folded constants: `g = 9.81`.
-#[allow(clippy::approx_constant)]
+#[allow(clippy::approx_constant, clippy::needless_range_loop)]
 pub mod driven_pivot {
     use bricard_runtime::nalgebra::{SMatrix, SVector};
     use bricard_runtime::{

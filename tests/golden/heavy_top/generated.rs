@@ -7,7 +7,7 @@
 /// Generated from `mechanisms/heavy_top.mech`: 4 coordinates, 1 constraint equations.
 ///
 /// Folded constants: `g = 9.81`.
-#[allow(clippy::approx_constant)]
+#[allow(clippy::approx_constant, clippy::needless_range_loop)]
 pub mod heavy_top {
     use bricard_runtime::nalgebra::{SMatrix, SVector};
     use bricard_runtime::{

@@ -8,7 +8,7 @@
 /// Generated from `mechanisms/slider_crank.mech`: 3 coordinates, 2 constraint equations.
 ///
 /// Folded constants: `g = 9.81`.
-#[allow(clippy::approx_constant)]
+#[allow(clippy::approx_constant, clippy::needless_range_loop)]
 pub mod slider_crank {
     use bricard_runtime::nalgebra::{SMatrix, SVector};
     use bricard_runtime::{
