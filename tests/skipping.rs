@@ -233,3 +233,35 @@ fn entries_that_are_numbers_are_written_once() {
         assert!(again.contains("out.jacobian.data.0[0][0] = "), "{again}");
     }
 }
+
+#[test]
+fn rows_that_follow_from_others_are_left_out_of_the_solve() {
+    let tied = |more: &str| {
+        format!(
+            "mechanism Tied {{ param m: kg = 1; coord x: m; coord y: m; coord z: m; coord w: m;
+            kinetic 1/2*m*(der(x)^2 + der(y)^2 + der(z)^2 + der(w)^2);
+            constraint x = y; constraint y = z; {more} start {{ x = 1; y ~ 1; z ~ 1; w ~ 1; }} }}"
+        )
+    };
+    let (independent, follows) = (
+        tied("constraint x + y = z + w;"),
+        tied("constraint x + y = 2*z;"),
+    );
+    let line = differs(
+        "redundant",
+        "row of G in the solve",
+        [&independent, &follows],
+    );
+    assert!(
+        line.contains("of 3: ") && line.contains("follows"),
+        "{line}"
+    );
+    assert!(code(&independent).contains("redundant: &[]"));
+    let code = code(&follows);
+    assert!(
+        ["[0]", "[1]", "[2]"]
+            .iter()
+            .any(|row| code.contains(&format!("redundant: &{row}")))
+    );
+    assert!(code.contains("fn acceleration("));
+}
