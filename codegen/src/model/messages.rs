@@ -14,6 +14,15 @@ pub const SIZE: &str = "the size of an array";
 /// What to do where two sides have different shapes.
 pub const ONE_SIZE: &str = "both sides are numbers, or vectors of one size";
 
+/// What to do where both sides are arrays of vectors or matrices.
+pub const BY_ROWS: &str =
+    "write an equation for each row: `for i in 0..3 { constraint A[i] = B[i]; }`";
+
+/// Says that two sides are of one shape that has no equations.
+pub fn sides_are(of: &str, side: &Value) -> String {
+    format!("each side of this {of} is {}", side.shape())
+}
+
 /// Says that two sides, of an equation or of a choice, have different shapes.
 pub fn sides_differ(of: &str, one: &Value, other: &Value) -> String {
     let (one, other) = (one.shape(), other.shape());

@@ -2,7 +2,7 @@
 
 use super::language::REACTION;
 use super::lowering::Lowering;
-use super::messages::{ONE_SIZE, sides_differ};
+use super::messages::{BY_ROWS, ONE_SIZE, sides_are, sides_differ};
 use super::scope::{Kind, twice};
 use super::unit::{Dimension, ENERGY, NONE, POWER, Unit};
 use super::value::{Scalar, Value};
@@ -269,9 +269,12 @@ impl Lowering<'_> {
         let (a, b) = (self.spread(&a, &b), self.spread(&b, &a));
         let vectors = matches!(a, Value::Scalar(_) | Value::Vector(_)) && a.same_shape(&b);
         if !vectors {
-            let message = sides_differ("equation", &a, &b);
+            let (message, help) = match a.same_shape(&b) {
+                true => (sides_are("equation", &a), BY_ROWS),
+                false => (sides_differ("equation", &a, &b), ONE_SIZE),
+            };
             let error = Diagnostic::error(left.span.to(right.span), message);
-            return self.report(error.help(ONE_SIZE));
+            return self.report(error.help(help));
         }
         for (side, value) in [(left, &a), (right, &b)] {
             self.without_acceleration(side, &value.scalars(), "a constraint")?;

@@ -411,6 +411,7 @@ pub const STATEMENTS: &[&str] = &[
     "param a = 10^-400;",
     "param a = 1e-320;",
     "constraint [q, w] = 1;",
+    "constraint [[q, w], [w, q]] = [[1, 0], [0, 1]];",
     "draw line([q, 0]);",
     "draw line([0, 0], [der(q), 0]);",
     "draw line([0, 0], [der(der(q)), 0]);",
