@@ -517,7 +517,8 @@ static inline bricard_status bricard_project(bricard *m, double t, double *q, do
 }
 
 /* Writes state, parameters, held inputs and start as numbers, for a file. A mechanism that
-   is loaded begins there as bricard_run does; functions and options are not in it. */
+   is loaded begins there as bricard_run does. Functions and options are not in it: options stay
+   as they are, and an input that follows a function follows its law again until it is driven. */
 static inline bricard_status bricard_save(bricard *m, double *out, size_t n)
 {
     return m ? m->interface_->save(m, out, n) : BRICARD_ERROR_NULL;

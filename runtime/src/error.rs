@@ -177,7 +177,7 @@ pub enum DynamicsError<T> {
         /// The mechanism, for the names.
         structure: &'static Structure,
     },
-    /// The position could not be brought back onto the constraints.
+    /// The state could not be brought back onto the constraints.
     ProjectionFailed {
         /// Time of the state (s).
         t: T,
@@ -305,7 +305,7 @@ fn write_off<T: Real>(
     structure.write_constraint(f, row)?;
     write!(
         f,
-        " is violated by {residual} and the position could not be brought back onto it; take a \
+        " is violated by {residual} and the state could not be brought back onto it; take a \
          smaller step, or check that the constraints can be satisfied together",
         residual = Number(residual)
     )

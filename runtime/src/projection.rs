@@ -8,7 +8,7 @@
 //! ([`crate::dynamics`], `follow.rs`).
 
 use crate::dynamics::{CoordinateScale, Core, MAX_ITERATIONS, Source, Which};
-use crate::tolerance::{contraction, critical, negligible, passes, round_off, window};
+use crate::tolerance::{contraction, critical, negligible, passes, regular, round_off, window};
 use crate::{DynamicsError, Mechanism, Real, State};
 use nalgebra::SVector;
 
@@ -32,6 +32,9 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
             strays = self.project_onto_sheet(&mechanism, &mut placed)?;
         } else if self.is_projected() {
             self.project_regular(mechanism, &mut placed)?;
+            if !self.rows.all_independent() {
+                self.verify_velocity(&mechanism, &placed)?;
+            }
         } else {
             self.session.trial.end = self.sine_where_it_is(&mechanism, state)?;
         }
@@ -60,6 +63,31 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
         };
         self.session.trial.end = squared;
         Ok(())
+    }
+
+    /// Refuses velocities that redundant rows contradict: what is projected satisfies the chosen
+    /// rows.
+    #[inline(never)]
+    fn verify_velocity(
+        &mut self,
+        mechanism: &dyn Mechanism<T, N, R>,
+        state: &State<T, N>,
+    ) -> Result<(), DynamicsError<T>> {
+        mechanism.position(state, &mut self.position);
+        let error = self.position.speed(&state.v);
+        let (worst, row) = self.residual(&error);
+        let (driven, _) = self.residual(&self.position.drift);
+        let rate = self.metric.factor.length(&state.v.data.0[0]) + driven;
+        // A comparison with NaN is false, so that an error that is NaN is refused.
+        match worst <= regular::<T>() * rate {
+            true => Ok(()),
+            false => Err(DynamicsError::ProjectionFailed {
+                t: state.t,
+                residual: error[row].abs(),
+                row,
+                structure: mechanism.structure(),
+            }),
+        }
     }
 
     /// The squared sine at a state that nothing projects. The factors also serve the acceleration

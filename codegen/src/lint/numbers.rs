@@ -14,6 +14,9 @@ use std::cell::OnceCell;
 const MOST_ROWS: usize = 64;
 /// Nor are those whose energies and constraints have more terms.
 const MOST_TERMS: usize = 6000;
+/// How much parameters are varied, and the seed of that.
+const VARIATION: f64 = 0.1;
+const VARIED: u64 = 77;
 /// Random positions that are looked at.
 const POSITIONS: u64 = 3;
 /// An equation holds if its error is smaller than this, relative to what its terms
@@ -140,6 +143,20 @@ impl<'a> Numbers<'a> {
         };
         numbers.parameters = numbers.with_inputs(&defaults, &nowhere, &[], (&[], None));
         Some(numbers)
+    }
+
+    /// The same mechanism with other values of its parameters.
+    pub fn varied(&self) -> Numbers<'a> {
+        let mut random = Random(VARIED);
+        let varied = self.parameters.iter().map(|value| match *value {
+            0.0 => VARIATION * random.next(),
+            value => value * (1.0 + VARIATION * random.next()),
+        });
+        Numbers {
+            parameters: varied.collect(),
+            samples: OnceCell::new(),
+            ..self.clone()
+        }
     }
 
     /// These numbers with a graph that has more expressions.

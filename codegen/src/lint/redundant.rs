@@ -13,9 +13,23 @@ use super::rows::ENOUGH;
 
 /// The rows that follow from the others wherever the constraints hold, in ascending order.
 pub fn rows(numbers: &Numbers) -> Vec<usize> {
+    let rows = at_samples(numbers).unwrap_or_default();
+    if rows.is_empty() {
+        return rows;
+    }
+    // Rows that follow with some parameters only are solved with: with others they are needed. A
+    // mechanism that can't be assembled with others is what it is.
+    match at_samples(&numbers.varied()) {
+        Some(others) if others.len() != rows.len() => others,
+        _ => rows,
+    }
+}
+
+/// The same with parameters as they are; `None` where the constraints hold at too few positions.
+fn at_samples(numbers: &Numbers) -> Option<Vec<usize>> {
     let samples = numbers.samples();
     if samples.len() < ENOUGH {
-        return Vec::new();
+        return None;
     }
     let mut places: Vec<Vec<Vec<f64>>> = samples
         .iter()
@@ -29,13 +43,14 @@ pub fn rows(numbers: &Numbers) -> Vec<usize> {
     }
     // A row that follows at some positions only may be needed at others.
     let follows = |row: &usize| places.iter().all(|rows| norm(&rows[*row]) <= INSIDE);
-    match left.iter().all(follows) {
+    Some(match left.iter().all(follows) {
         true => left,
         false => Vec::new(),
-    }
+    })
 }
 
-/// The rows of `A` at a place, of length one where each coordinate is measured by its own inertia.
+/// The rows of `A` at a place, of length one where each coordinate is measured by its own inertia,
+/// or zero.
 fn directions(numbers: &Numbers, place: &Place) -> Vec<Vec<f64>> {
     let mass = numbers.mass(place);
     let diagonal = mass.iter().enumerate().map(|(j, row)| row[j]);
@@ -44,8 +59,10 @@ fn directions(numbers: &Numbers, place: &Place) -> Vec<Vec<f64>> {
         .collect();
     let direction = |row: Vec<f64>| {
         let weighed: Vec<f64> = row.iter().zip(&weights).map(|(a, w)| a / w).collect();
-        let length = norm(&weighed);
-        weighed.iter().map(|a| a / length).collect()
+        match norm(&weighed) {
+            0.0 => weighed,
+            length => weighed.iter().map(|a| a / length).collect(),
+        }
     };
     numbers.jacobian(place).into_iter().map(direction).collect()
 }
@@ -55,7 +72,7 @@ fn directions(numbers: &Numbers, place: &Place) -> Vec<Vec<f64>> {
 fn farthest(numbers: &Numbers, places: &[Vec<Vec<f64>>], left: &[usize]) -> Option<usize> {
     let distance = |row: usize| {
         let distances = places.iter().map(|rows| norm(&rows[row]));
-        // The direction of a row of zeros is not a number: it stays for the runtime.
+        // What is not a number stays.
         distances.fold(1.0, |least, x| if x >= least { least } else { x })
     };
     let rows = left.iter().map(|&row| (row, distance(row)));

@@ -51,8 +51,8 @@ pub(crate) struct Rows<T, const R: usize> {
     holonomic: [bool; R],
     /// Whether the rows are independent at all positions, by their form.
     by_form: bool,
-    /// How many rows emitted code leaves out.
-    left_out: usize,
+    /// The rows that emitted code leaves out.
+    left_out: &'static [usize],
     active: [usize; R],
     active_count: usize,
     holonomic_count: usize,
@@ -74,7 +74,7 @@ impl<T: Real, const R: usize> Rows<T, R> {
             uneven: false,
             holonomic: [true; R],
             by_form: structure.independent,
-            left_out: structure.redundant.len(),
+            left_out: structure.redundant,
             active: [0; R],
             active_count: 0,
             holonomic_count: 0,
@@ -82,6 +82,10 @@ impl<T: Real, const R: usize> Rows<T, R> {
         };
         for (holonomic, constraint) in rows.holonomic.iter_mut().zip(structure.constraints) {
             *holonomic = constraint.holonomic;
+        }
+        // They may be zero wherever the constraints hold, and say nothing of dependence.
+        for row in rows.left_out {
+            rows.inverse_size[*row] = T::one();
         }
         rows
     }
@@ -118,7 +122,7 @@ impl<T: Real, const R: usize> Rows<T, R> {
     }
 
     /// The inverse of the squared reference size; infinite for a row that was never anything but
-    /// zero.
+    /// zero, and one for a row that emitted code leaves out.
     #[inline]
     pub(crate) fn inverse_size(&self, row: usize) -> T {
         self.inverse_size[row]
@@ -146,7 +150,7 @@ impl<T: Real, const R: usize> Rows<T, R> {
     /// positions.
     #[inline]
     pub(crate) fn solves_all(&self) -> bool {
-        self.regular + self.left_out == R
+        self.regular + self.left_out.len() == R
     }
 
     /// An independent subset that spans all rows at regular positions, if one is
@@ -203,6 +207,7 @@ impl<T: Real, const R: usize> Rows<T, R> {
             coupling: &mut self.coupling,
             inverse_size: &mut self.inverse_size,
             scale: &mut self.scale,
+            left_out: self.left_out,
             weight: &mut self.weight,
             uneven: &mut self.uneven,
             holonomic: &self.holonomic,
@@ -225,6 +230,7 @@ pub(crate) struct RowsView<'a, T> {
     coupling: &'a mut [T],
     inverse_size: &'a mut [T],
     scale: &'a mut [T],
+    left_out: &'static [usize],
     weight: &'a mut [T],
     uneven: &'a mut bool,
     holonomic: &'a [bool],
@@ -245,7 +251,9 @@ impl<T: Real> RowsView<'_, T> {
         };
         if size.is_finite() && size > self.size[row] {
             self.size[row] = size;
-            self.inverse_size[row] = T::one() / size;
+            if !self.left_out.contains(&row) {
+                self.inverse_size[row] = T::one() / size;
+            }
             self.scale[row] = T::one() / size.sqrt();
         }
     }

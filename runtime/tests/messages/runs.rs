@@ -293,7 +293,7 @@ pub const MOTIONS: &[Case] = &[
         "DynamicsError::ProjectionFailed",
         "`y = 0` until t = 0.5 s, then a constraint that nothing satisfies",
         || refused(Point::on(torn), rk4()),
-        "at t = … s the constraint `g = 0` (line 3) is violated by … and the position could not \
+        "at t = … s the constraint `g = 0` (line 3) is violated by … and the state could not \
          be brought back onto it; take a smaller step, or check that the constraints can be \
          satisfied together",
     ),

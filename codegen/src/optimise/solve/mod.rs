@@ -65,9 +65,8 @@ impl Layout<'_> {
     }
 }
 
-/// What stands for the pivot of a row that is left out: large beside the size of any row, and
-/// finite in single precision beside the smallest.
-const NO_PIVOT: i64 = 1_000_000_000_000_000_000;
+/// What stands for the pivot of a row that is left out, which is compared with one.
+const NO_PIVOT: i64 = 1;
 
 /// What equations there are.
 struct Given<'a> {
