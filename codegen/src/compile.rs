@@ -3,7 +3,7 @@
 use crate::derive::{self, Equations};
 use crate::diagnostic::Diagnostics;
 use crate::emit::{self, EmitOptions, Provenance};
-use crate::lint;
+use crate::lint::Lints;
 use crate::model::{self, Mechanism};
 use crate::optimise::{self, Besides, Programs};
 use crate::syntax::{self, Read};
@@ -127,8 +127,9 @@ pub fn examine(
     let (mechanism, mut warnings) = analyse(source, settings)?;
     let mut derived = mechanism.clone();
     let equations = derive::derive(&mut derived)?;
-    warnings.append_elsewhere(lint::lints(&derived, &equations));
-    warnings.append_elsewhere(lint::redundancies(&derived, &equations));
+    let lints = Lints::of(&derived, &equations);
+    warnings.append_elsewhere(lints.warnings());
+    warnings.append_elsewhere(lints.redundancies());
     if let Some(warning) = derive::swell(&derived, &equations) {
         warnings.push(warning);
     }
@@ -141,16 +142,9 @@ pub fn examine(
 ///
 /// They are too long.
 pub fn equations_of_motion(mechanism: &mut Mechanism) -> Result<Equations, Diagnostics> {
-    let equations = derive::derive(mechanism)?;
-    Ok(with_redundant_rows(mechanism, equations))
-}
-
-/// Equations with the news which rows a solve can leave out.
-fn with_redundant_rows(mechanism: &Mechanism, equations: Equations) -> Equations {
-    Equations {
-        redundant: lint::redundant_rows(mechanism, &equations),
-        ..equations
-    }
+    let mut equations = derive::derive(mechanism)?;
+    equations.redundant = Lints::of(mechanism, &equations).redundant_rows();
+    Ok(equations)
 }
 
 /// The mechanism of a syntax tree, with warnings. Where some statements can't be read, the
@@ -186,14 +180,16 @@ fn derive(
     let declared = eliminate.then(|| mechanism.clone());
     let mut equations = derive::derive(&mut mechanism);
     // What is too long as it was declared may be short enough without some coordinates.
-    if let Ok(equations) = &equations {
-        warnings.append_elsewhere(lint::lints(&mechanism, equations));
+    if let Ok(equations) = &mut equations {
+        let lints = Lints::of(&mechanism, equations);
+        warnings.append_elsewhere(lints.warnings());
+        equations.redundant = lints.redundant_rows();
     }
     if let Some(declared) = declared {
         mechanism = derive::eliminate(declared)?;
-        equations = derive::derive(&mut mechanism);
+        equations = equations_of_motion(&mut mechanism);
     }
-    let equations = with_redundant_rows(&mechanism, equations?);
+    let equations = equations?;
     if let Some(warning) = derive::swell(&mechanism, &equations) {
         warnings.push(warning);
     }

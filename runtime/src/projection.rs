@@ -73,7 +73,10 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
         mechanism: &dyn Mechanism<T, N, R>,
         state: &State<T, N>,
     ) -> Result<(), DynamicsError<T>> {
-        mechanism.position(state, &mut self.position);
+        // The runtime's own projection has evaluated this position last.
+        if self.session.trial.by_emitted {
+            mechanism.position(state, &mut self.position);
+        }
         let error = self.position.speed(&state.v);
         let (worst, row) = self.residual(&error);
         let (driven, _) = self.residual(&self.position.drift);

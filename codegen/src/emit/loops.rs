@@ -23,17 +23,16 @@ use quote::quote;
 use rustc_hash::FxHashSet;
 use std::collections::BTreeSet;
 
-/// Loops pay where at most so many of four steps are left.
+/// Loops pay where at most so many of four steps are left, and a table of numbers where at most so
+/// many of those are left that are left without it.
 const OF_FOUR: usize = 3;
 /// The fewest places that a value is written to in a loop.
 const WRITES_MIN: usize = 8;
 /// The most steps that may be left: compilers take too long for more.
 const LEFT_MAX: usize = 10_000;
 
-/// A table of numbers pays where at most so many of four steps are left with it, and is tried where
-/// so many are left without.
-const OF_FOUR_WITH_TABLE: usize = 3;
-const LEFT_MANY: usize = 64;
+/// A table is tried where more steps are left: finding out takes as long as finding the loops.
+const LEFT_MANY: usize = 500;
 
 /// A program with loops.
 pub(super) struct Loops<'a> {
@@ -60,7 +59,7 @@ impl<'a> Loops<'a> {
         let tabulated = tabulated.map(|Tabulated { program, numbers }| {
             Self::with(&program, (symbols, numbers), names, decided)
         });
-        let shorter = |other: &Self| 4 * other.found.left() <= OF_FOUR_WITH_TABLE * left;
+        let shorter = |other: &Self| 4 * other.found.left() <= OF_FOUR * left;
         let best = tabulated.filter(shorter).unwrap_or(plain);
         let (left, all) = (best.found.left(), best.steps.list.len());
         (4 * left <= OF_FOUR * all && left <= LEFT_MAX).then_some(best)

@@ -10,7 +10,7 @@ use super::function::{Decided, Symbols};
 use super::index::Index;
 use super::literal::{number, parts};
 use super::name::Names;
-use super::step::{Reference, Steps};
+use super::step::{Reference, Step, Steps};
 use super::turns::{Block, Found, Loop};
 use crate::expr::Number;
 use crate::model::Symbol;
@@ -108,7 +108,7 @@ impl Table {
 }
 
 /// Where some steps read numbers.
-fn uses(steps: &[super::step::Step]) -> Vec<Use> {
+fn uses(steps: &[Step]) -> Vec<Use> {
     let references = steps.iter().flat_map(|step| &step.references);
     references
         .filter_map(|reference| match reference {
