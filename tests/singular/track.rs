@@ -15,7 +15,7 @@ use std::ops::ControlFlow;
 
 /// Outputs that a description may have; all of them are zero on the right motion, those of
 /// a reduction are coordinates and velocities.
-pub const OUTPUTS: usize = 16;
+pub const OUTPUTS: usize = 18;
 /// Fractions of a step at which rows inside it are taken.
 const INSIDE: [f64; 2] = [0.3, 0.7];
 

@@ -16,6 +16,7 @@ mod reach;
 mod substitute;
 mod symmetric;
 mod table;
+mod zero;
 
 pub(crate) use bits::Bits;
 pub use diff::Direction;

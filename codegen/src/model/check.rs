@@ -141,12 +141,14 @@ impl Lowering<'_> {
     ) -> Option<Option<bool>> {
         let analysis = self.evaluator.analysis(residual);
         self.legal_row(analysis, sides)?;
+        if self.evaluator.graph.is_zero_everywhere(residual) {
+            return Some(None);
+        }
         if analysis.coordinate || analysis.velocity() {
             return Some(Some(!analysis.velocity()));
         }
         let whole = sides[0].span.to(sides[1].span);
         match analysis.value {
-            Some(0.0) => Some(None),
             Some(value) => {
                 let error = Diagnostic::error(whole, "this equation never holds");
                 self.report(error.labelled(format!("left minus right is {}", figure(value))))

@@ -32,6 +32,44 @@ fn a_row_that_says_nothing_is_left_out_with_a_warning() {
 }
 
 #[test]
+fn a_row_that_an_identity_makes_hold_says_nothing() {
+    for row in [
+        "cos(q)^2 + sin(q)^2 = 1",
+        "(q + w)^2 = q^2 + 2*q*w + w^2",
+        "sin(q + w) = sin(q)*cos(w) + cos(q)*sin(w)",
+        "dot(rotx(q)*[1, 0, 0], rotx(w)*[0, 1, 0]) = 0",
+        "dot(rotx(0.7)*[0, 0, 1], rotx(0.7)*[0, 1, 0]) = 0",
+        "norm2(rotx(0.7)*roty(q)*[w, t, 2]) = w^2 + t^2 + 4",
+        "cos(q)^2*der(w) = der(w) - sin(q)^2*der(w)",
+    ] {
+        let source = with(&format!("constraint {row};"));
+        assert!(
+            warnings(&source).contains("this equation always holds"),
+            "{row}"
+        );
+        assert!(accept(&source).constraints.is_empty(), "{row}");
+    }
+    for row in [
+        "cos(q)^2 + sin(q)^2 = 1 + 1e-9*w",
+        "cos(q)^2 + sin(w)^2 = 1",
+        "1e-20*q = 0",
+    ] {
+        let source = with(&format!("constraint {row};"));
+        assert_eq!(accept(&source).constraints.len(), 1, "{row}");
+    }
+}
+
+/// A hinge of space in a plane: that it does not tilt is no news.
+#[test]
+fn a_part_may_say_what_holds_anyway() {
+    let turned = "rotx(0.7)*rotz(q)";
+    let hinge = format!("let h = Revolute([0, 0, 0], rotx(0.7), [0, 0, 0], {turned});");
+    let source = with(&format!("use parts; {hinge} constraint w = 0;"));
+    assert_eq!(accept(&source).constraints.len(), 1);
+    assert_eq!(warnings(&source), "");
+}
+
+#[test]
 fn a_force_works_on_coordinates_lengths_and_points() {
     let m = accept(&with(
         "input u = 1; force u on q; force [u, 2*der(q)] on [cos(q), w]; force -abs(w) on norm([q, w]);",

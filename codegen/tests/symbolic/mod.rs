@@ -20,6 +20,7 @@ mod shared;
 mod solve;
 mod text;
 mod weighed;
+mod zero;
 
 use proptest::test_runner::{Config, RngSeed, TestCaseError};
 

@@ -57,6 +57,7 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
         if self.rows.all_independent() || !self.is_prepared() {
             return Ok(false);
         }
+        self.observe_sizes(mechanism, state);
         mechanism.position(state, &mut self.position);
         self.factorise_metric(mechanism, Source::Position, state.t)?;
         let mut before = self.factorise_constraints(Source::Position, Which::All);

@@ -11,6 +11,7 @@
 
 use super::Core;
 use super::erased::Constrained;
+use super::rows::RowsView;
 use super::singular_values::lift;
 use crate::equations::At;
 use crate::linalg::{Workspace, dot, independent_columns, is_definite, norm, scale};
@@ -53,6 +54,18 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
         let by_form = self.rows.are_independent_by_form();
         let (mut solver, workspace, _) = self.lend(mechanism);
         sampling()(&mut solver, state.at(), by_form, &workspace);
+    }
+
+    /// Takes note of the sizes of all rows at an accepted state. Where they depend on time, one that
+    /// is zero at the start need not be zero later.
+    #[inline(never)]
+    pub(super) fn observe_sizes(
+        &mut self,
+        mechanism: &dyn Mechanism<T, N, R>,
+        state: &State<T, N>,
+    ) {
+        let (mut solver, workspace, _) = self.lend(mechanism);
+        observing()(&mut solver, state.at(), &workspace);
     }
 }
 
@@ -117,6 +130,14 @@ impl<'a, T: Real> Sizes<'a, T> {
         solver.learn().rows.observe(row, whole, alone);
     }
 
+    /// Takes note of the sizes of all rows at the first position.
+    fn observe_all(&self, rows: &mut RowsView<'_, T>) {
+        let sizes = self.whole.iter().zip(&*self.alone);
+        for (row, (whole, alone)) in sizes.enumerate() {
+            rows.observe(row, *whole, *alone);
+        }
+    }
+
     /// The sizes of all rows at a position, from a place on; zero where they are not finite or
     /// have no metric.
     fn measure(
@@ -161,7 +182,7 @@ pub(super) fn sample_sizes<T: Real>(
     let mut rows = solver.learn().rows;
     // If no row vanishes anywhere, this state is as good as others.
     if by_form {
-        return (0..r).for_each(|row| rows.observe(row, here.whole[row], here.alone[row]));
+        return here.observe_all(&mut rows);
     }
     let structure = solver.structure();
     let has = |kind| (0..structure.coordinates.len()).any(|j| structure.kind(j) == Some(kind));
@@ -395,6 +416,22 @@ fn median<T: Real>(numbers: [T; SAMPLES]) -> T {
     sorted[count / 2]
 }
 
+/// Takes note of the sizes of all rows at a position.
+fn observe_sizes<T: Real>(
+    solver: &mut dyn Constrained<T>,
+    (t, q): (T, &[T]),
+    workspace: &Workspace<'_, T>,
+) {
+    let r = solver.known().r();
+    let mut here = Sizes::new(r, workspace);
+    here.measure(solver, (t, q), 0, workspace);
+    here.observe_all(&mut solver.learn().rows);
+}
+
+compiled_once! {
+    fn observing<T>: fn(&mut dyn Constrained<T>, At<'_, T>, &Workspace<'_, T>) =
+        |solver, state, workspace| observe_sizes(solver, (state.t, state.q), workspace);
+}
 compiled_once! {
     fn sampling<T>: fn(&mut dyn Constrained<T>, At<'_, T>, bool, &Workspace<'_, T>) =
         |solver, state, by_form, workspace| sample_sizes(solver, state, by_form, workspace);

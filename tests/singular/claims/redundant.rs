@@ -1,9 +1,11 @@
 //! Constraints of which some follow from the others: where those that were chosen become
 //! dependent and all of them together do not, nothing is singular.
 
-use bricard_runtime::{Form, Options, Whole, assemble, simulate};
+use bricard_runtime::{Form, Interface, Options, Whole, assemble, simulate};
 use bricard_singular::descriptions::spatial_parallelogram::SpatialParallelogram;
 use bricard_singular::descriptions::three_cranks::ThreeCranks;
+use bricard_singular::descriptions::turned_parallelogram::TurnedParallelogram;
+use bricard_singular::{Score, Trial, judge};
 
 const N: usize = 21;
 const R: usize = 23;
@@ -149,4 +151,35 @@ fn a_pivot_beside_the_line_of_the_others_leaves_no_passage() {
             assert_eq!(summary.passages, Some(passages), "{name}");
         }
     }
+}
+
+/// In a plane that a law of time turns, what follows from what changes with time, and rows that are
+/// zero at the start are needed later.
+#[test]
+fn hinges_in_a_plane_that_turns_are_as_good_as_those_in_one_that_stands() {
+    let (mechanism, reduced) = ("turned_parallelogram", "turned_parallelogram_reduced");
+    for (tolerance, nod, turn) in [(1e-6, 0.7, 0.6), (1e-9, -1.9, 0.8), (1e-11, 1.0, 1.0)] {
+        for (a0, w0) in [(0.7, 6.0), (-0.4, -8.0), (1.2, 2.0)] {
+            let set = vec![("nod", nod), ("turn", turn), ("a0", a0), ("w0", w0)];
+            let trial = Trial::short(mechanism, reduced, set).until(4.0);
+            let trial = Trial { tolerance, ..trial };
+            let verdict = judge(&trial);
+            assert_eq!(verdict.score, Score::Right, "{trial}\n    {}", verdict.why);
+            assert!(!verdict.miscounted(), "{trial}: {:?}", verdict.passages);
+        }
+    }
+}
+
+#[test]
+fn so_they_are_for_least_squares() {
+    let mechanism = TurnedParallelogram::default();
+    let start = assemble(&mechanism, &mechanism.start(), 0.0).expect("it can be assembled");
+    let ended = |form| {
+        let options = options(4.0, form, 1e-9);
+        simulate(&mechanism, &start, &options, &mut []).expect("the run ends")
+    };
+    let (reduced, full) = (ended(Form::Reduced), ended(Form::Full));
+    assert!(full.passages.is_some_and(|passages| passages > 4));
+    assert_eq!(reduced.passages, full.passages);
+    assert!((reduced.end.q - full.end.q).amax() < 1e-6);
 }
