@@ -107,6 +107,15 @@ fn not_there(structure: &Structure, owner: &str, name: &str) -> CommandError {
         return CommandError::InvalidSetting { name, reason };
     }
     let all = structure.parameters.iter().chain(structure.inputs);
+    let inside = |quantity: &&Quantity| {
+        let rest = quantity.name.strip_prefix(name);
+        rest.is_some_and(|rest| rest.starts_with(['[', '.']))
+    };
+    if let Some(Quantity { name: element, .. }) = all.clone().find(inside) {
+        let reason = format!("what it consists of is set one by one: `{element}=…`");
+        let name = name.to_string();
+        return CommandError::InvalidSetting { name, reason };
+    }
     let known = all.map(|quantity| quantity.name.to_string()).collect();
     unknown("parameter or input", owner, name, known)
 }

@@ -119,7 +119,7 @@ fn whole(model: &Model, name: &str) -> Result<(), CommandError> {
     let first = name.split(['.', '[']).next().unwrap_or(name);
     let reason = match model.law_of(first) {
         _ if first == name => return Ok(()),
-        Some(_) => format!("the law of `{first}` is given as a whole: write `{first}=…`"),
+        Some(_) => format!("the law of `{first}` is given as a whole: write `{first}=[…]`"),
         None => "the law of an input inside a part stands in the description".to_string(),
     };
     let name = name.to_string();

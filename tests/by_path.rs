@@ -563,7 +563,10 @@ fn an_input_follows_a_formula_of_the_command_line_as_it_would_one_of_its_file() 
     let description = |law: &str| {
         pendulum("Pushed", 1.0).replace(
             "coord q: rad;",
-            &format!("coord q: rad;\n    input u: N*m = {law};\n    force u on q;"),
+            &format!(
+                "coord q: rad;\n    input u: N*m = {law};\n    force u on q;\n    \
+                 input p[2]: N*m = [0, t];\n    force p[0] + 0*p[1] on q;"
+            ),
         )
     };
     let law = "if t < 1.5 then 3*sin(t) - m*der(q)*L else 0";
@@ -599,6 +602,17 @@ fn an_input_follows_a_formula_of_the_command_line_as_it_would_one_of_its_file() 
         "{}",
         parameter.err
     );
+    for (set, said) in [
+        (
+            "p[0]=sin(t)",
+            "the law of `p` is given as a whole: write `p=[…]`",
+        ),
+        ("p=1", "what it consists of is set one by one: `p[0]=…`"),
+    ] {
+        let part = run_of("plain.mech", &["--set", set]);
+        assert_eq!(part.status, Some(2));
+        assert!(part.err.contains(said), "{}", part.err);
+    }
     let nobody = run_of("plain.mech", &["--set", "w=sin(t)"]);
     assert!(
         nobody.err.contains("there is no parameter or input `w`"),

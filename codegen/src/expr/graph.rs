@@ -358,9 +358,22 @@ impl<S: Symbolic> Graph<S> {
         }
     }
 
-    /// A function of two arguments.
+    /// A function of two arguments; of two rational numbers one is the smaller.
     pub fn function2(&mut self, function: Function2, x: ExprId, y: ExprId) -> ExprId {
+        if let Some(x_is_less) = self.is_less(x, y) {
+            match function {
+                Function2::Min => return if x_is_less { x } else { y },
+                Function2::Max => return if x_is_less { y } else { x },
+                Function2::Atan2 | Function2::Pow => {}
+            }
+        }
         self.intern(Node::Function2(function, x, y))
+    }
+
+    /// Whether one number is less than another, where both are rational.
+    fn is_less(&self, x: ExprId, y: ExprId) -> Option<bool> {
+        let difference = self.as_number(x)? + -self.as_number(y)?;
+        matches!(difference, Number::Exact(..)).then(|| difference.is_negative())
     }
 
     /// `if left ⋈ right then … else …`.

@@ -16,7 +16,7 @@ pub struct Analysis {
     pub state: bool,
     /// An acceleration, or the rate of a state, occurs.
     pub acceleration: bool,
-    /// `abs`, `sign`, `min`, `max` or `if` occurs.
+    /// `abs`, `sign`, `min`, `max` or `if` occurs, and not of constants alone.
     pub kinked: bool,
     /// The degree in the velocities; [`NOT_POLYNOMIAL`] stands for more than two
     /// and for everything that isn't a polynomial in them.
@@ -104,6 +104,8 @@ impl Analyses {
             Node::Number(_) | Node::Pi | Node::Symbol(_) | Node::Sum(..) => {}
         }
         analysis.value = self.value(node);
+        // A constant is smooth, whatever it is made of.
+        analysis.kinked &= analysis.value.is_none();
         analysis
     }
 

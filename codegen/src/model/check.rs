@@ -17,8 +17,8 @@ use crate::syntax::ast::{Energy, Expr, ExprKind};
 /// What to write where a force works on something else.
 const WORKED_ON: &str = "write the coordinate, angle, length or point";
 
-const SMOOTH: &str =
-    "`abs`, `sign`, `min`, `max` and `if` may stand in forces, inputs, outputs and events";
+const SMOOTH: &str = "`abs`, `sign`, `min`, `max`, `if` and `table` may stand in forces, inputs, outputs and \
+     events; a `spline` is smooth";
 
 const STATES_ACT: &str = "a state acts by `force z on x`; what has kinetic energy is a `coord`";
 

@@ -182,6 +182,7 @@ impl Evaluator {
                 let help = "arrays have up to 10000 elements, loops a million rounds";
                 return self.report(Diagnostic::error(e.span, message).help(help));
             }
+            Some(value) if value.fract() == 0.0 => format!("this is {value} but for round-off"),
             Some(value) => format!("this is {value}"),
             None => "this is not".into(),
         };
@@ -325,6 +326,12 @@ impl Evaluator {
         if let Some(help) = self.elsewhere(name) {
             let error = Diagnostic::error(span, format!("`{name}` is not declared"));
             return self.report(error.help(help));
+        }
+        if self.scope.outputs.contains(name) {
+            let error = Diagnostic::error(span, format!("`{name}` is an output"));
+            return self.report(error.help(format!(
+                "what formulas use is declared by `let {name} = …;`; an output shows it"
+            )));
         }
         // Whoever writes `phi` or `psi` means no `pi`, nor by `T` the time.
         let built_in = BUILT_IN.iter().map(|(name, _)| *name);

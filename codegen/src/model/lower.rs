@@ -11,7 +11,7 @@ use super::scope::{Entry, Kind};
 use super::symbol::{Graph, Symbol};
 use crate::diagnostic::{Diagnostic, Diagnostics, Span};
 use crate::expr::ExprId;
-use crate::syntax::ast::{Energy, Item, ItemKind};
+use crate::syntax::ast::{Declared, Energy, Item, ItemKind};
 use crate::syntax::messages::REMOVE;
 use crate::syntax::{self, Model};
 use rustc_hash::FxHashMap;
@@ -70,6 +70,11 @@ fn begun<'a>(
     let mut evaluator = Evaluator::default();
     evaluator.folder = folder.map(Path::to_path_buf);
     evaluator.scope.unreadable = model.unreadable.iter().cloned().collect();
+    let outputs = model.items.iter().filter_map(|item| match &item.kind {
+        ItemKind::Declaration(d) if d.kind == Declared::Output => Some(d.name.text.clone()),
+        _ => None,
+    });
+    evaluator.scope.outputs = outputs.collect();
     Lowering {
         evaluator,
         mechanism: Mechanism::named(&model.name.text, &model.docs),

@@ -88,6 +88,8 @@ pub struct Scope {
     outermost: usize,
     /// Names that statements with mistakes may have declared.
     pub unreadable: FxHashSet<String>,
+    /// Names of outputs, which no formula can use.
+    pub outputs: FxHashSet<String>,
 }
 
 impl Scope {

@@ -103,7 +103,8 @@ impl Lowering<'_> {
     ) -> Option<()> {
         let analysis = self.evaluator.analysis(scalar.id);
         let (message, help) = if !analysis.coordinate && !analysis.velocity() && !analysis.state {
-            let message = "only coordinates and their velocities have start values";
+            let message =
+                "only coordinates, velocities, states and formulas of them have start values";
             (message, "write `q1 = …;` or `der(q1) = …;`")
         } else if analysis.input {
             (

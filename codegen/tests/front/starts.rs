@@ -85,11 +85,11 @@ fn components_that_are_as_they_begin_anyway_are_no_equations() {
     assert_eq!((texts.count(), starts), (0, vec![true]));
     refuse_saying(
         &with("let R = rot([0, 0, 1], q); start { omega(R) = [0, 1, 10*pi]; }"),
-        "only coordinates and their velocities have start values",
+        "only coordinates, velocities, states and formulas",
     );
     refuse_saying(
         &with("start { [0, 0] = [0, 0]; }"),
-        "only coordinates and their velocities have start values",
+        "only coordinates, velocities, states and formulas",
     );
 }
 

@@ -128,7 +128,7 @@ fn start_entries_that_make_no_sense_are_refused() {
     );
     refuse_saying(
         &with("param a = 1; start { a = 1; }"),
-        "only coordinates and their velocities",
+        "only coordinates, velocities, states and formulas",
     );
     refuse_saying(
         &with("coord p[2]; start { p = 1; }"),

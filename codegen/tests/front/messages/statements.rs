@@ -435,6 +435,8 @@ pub const STATEMENTS: &[&str] = &[
     "constraint q = q;",
     "param l = 1; constraint l = 2;",
     "param l = 1; start { l = 1; }",
+    "output o = q; output p = o;",
+    "coord c[8^(1/3)];",
     "start { q = w; }",
     "start { der(q)^2 = 1; }",
     "start { abs(q) = 1; }",
