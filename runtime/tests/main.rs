@@ -13,6 +13,7 @@ mod integrator;
 mod large;
 mod mechanisms;
 mod messages;
+mod no_gradient;
 mod node_reuse;
 mod placement;
 mod scan;

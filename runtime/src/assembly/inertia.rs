@@ -35,10 +35,12 @@ pub(super) fn negative<T: Real>(
         directions: workspace.numbers(n * n),
         done: workspace.indices(n),
     };
-    // Each coordinate in a unit of its own, in which its inertia is one.
+    // Each coordinate in a unit of its own, in which its inertia is one, unless that is so small
+    // that it has lost digits.
     for i in 0..n {
         let inertia = mass[i * n + i].abs();
-        reduced.directions[i * n + i] = match inertia > T::zero() {
+        let last_digits = inertia * T::EPSILON * T::EPSILON;
+        reduced.directions[i * n + i] = match last_digits > T::zero() {
             true => T::one() / inertia.sqrt(),
             false => T::one(),
         };
@@ -199,5 +201,14 @@ mod tests {
         assert_eq!(negative(&(rows.transpose() * rows)), Ok(None));
         let last = Matrix3::new(4.0, 2.0, 0.0, 2.0, 4.0, 3.0, 0.0, 3.0, 3.1);
         assert_eq!(negative(&last), Ok(None));
+    }
+
+    /// The energy of `(x ẏ − y ẋ)²` beside `y = 0`, where squares have lost digits.
+    #[test]
+    fn an_inertia_below_all_digits_is_none() {
+        for y in [1e-150_f64, 1e-155, 1e-158, 1e-160, 1e-161, 1e-165, 1e-200] {
+            let mass = Matrix2::new(y * y, -y, -y, 1.0) * 0.14;
+            assert_eq!(negative(&mass), Ok(None), "{y}");
+        }
     }
 }

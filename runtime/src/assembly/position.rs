@@ -59,7 +59,7 @@ pub(super) fn assemble<T: Real>(
         disturb(guess, distance, descent.q);
         descent.run()?;
         if is_satisfied(descent.residual, &scales) {
-            draft.q.copy_from_slice(descent.q);
+            arrive_at(descent.q, &scales, draft.held, draft.q);
             return check_gradients(equations, (draft.t, draft.q), &measured, workspace);
         }
         if least.is_none_or(|least| descent.merit < least) {
@@ -74,6 +74,18 @@ pub(super) fn assemble<T: Real>(
     }
     measured.influential(at.jacobian, draft.residual, draft.held, draft.conflicting);
     Err(Refusal::Positions)
+}
+
+/// Takes over where a descent arrived. Quadratic convergence to zero goes on below all digits: what
+/// is left of a coordinate there is zero, and squares of it would lose theirs.
+fn arrive_at<T: Real>(arrived: &[T], scales: &Scales<'_, T>, held: &[bool], q: &mut [T]) {
+    for (i, q) in q.iter_mut().enumerate() {
+        let nothing = scales.sizes[i] * T::EPSILON * T::EPSILON;
+        *q = match arrived[i] {
+            left if left.abs() < nothing && !held[i] => T::zero(),
+            arrived => arrived,
+        };
+    }
 }
 
 /// One descent of the constraint error.

@@ -128,6 +128,12 @@ impl<T: Real, const R: usize> Rows<T, R> {
         self.inverse_size[row]
     }
 
+    /// Whether no row was never anything but zero.
+    #[inline]
+    pub(crate) fn all_have_sizes(&self) -> bool {
+        self.size.iter().all(|size| *size > T::zero())
+    }
+
     /// What a row is multiplied by to have size one; zero for a row that was
     /// never anything but zero.
     #[inline]

@@ -17,8 +17,8 @@ use crate::equations::At;
 use crate::linalg::{Workspace, dot, independent_columns, is_definite, norm, scale};
 use crate::natural_size::{Kind, NaturalSizes};
 use crate::once::compiled_once;
-use crate::tolerance::{hull, regular, spacing};
-use crate::{Mechanism, Position, Real, State};
+use crate::tolerance::{excusable, hull, regular, spacing};
+use crate::{DynamicsError, Mechanism, Position, Real, State};
 use core::f64::consts::TAU;
 
 /// How many times the angles are turned.
@@ -66,6 +66,30 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
     ) {
         let (mut solver, workspace, _) = self.lend(mechanism);
         observing()(&mut solver, state.at(), &workspace);
+    }
+
+    /// Takes note of the sizes of rows that were never anything but zero, and refuses an accepted
+    /// state that violates one that still is: nothing else would notice it.
+    #[inline(never)]
+    pub(crate) fn verify_rows_without_size(
+        &mut self,
+        mechanism: &dyn Mechanism<T, N, R>,
+        state: &State<T, N>,
+    ) -> Result<(), DynamicsError<T>> {
+        self.observe_sizes(mechanism, state);
+        mechanism.position(state, &mut self.position);
+        let mut without = (0..R).filter(|row| self.rows.scale(*row) == T::zero());
+        let residual = |row: usize| self.position.residual[row].abs();
+        let holds = |row: &usize| residual(*row) <= excusable();
+        match without.find(|row| !holds(row)) {
+            Some(row) => Err(DynamicsError::ProjectionFailed {
+                t: state.t,
+                residual: residual(row),
+                row,
+                structure: mechanism.structure(),
+            }),
+            None => Ok(()),
+        }
     }
 }
 
@@ -359,8 +383,10 @@ fn rows_alone<T: Real>(mass: &[T], jacobian: &[T], alone: &mut [T]) {
     let n = jacobian.len() / r;
     for (levers, mass) in jacobian.chunks_exact(r).zip(diagonal.step_by(n + 1)) {
         for (sum, lever) in alone.iter_mut().zip(levers) {
-            if *lever != T::zero() {
-                *sum += *lever * *lever / mass.max(T::zero());
+            // A lever may be too small for its square.
+            let square = *lever * *lever;
+            if square != T::zero() {
+                *sum += square / mass.max(T::zero());
             }
         }
     }

@@ -1,6 +1,8 @@
 //! A mass matrix that is singular, at some positions or at all of them.
 
+use bricard_runtime::nalgebra::SVector;
 use bricard_runtime::{Form, Interface, Options, Summary, assemble, simulate};
+use bricard_singular::descriptions::guided_body::GuidedBody;
 use bricard_singular::descriptions::leg::Leg;
 use bricard_singular::{Score, Trial, judge};
 
@@ -66,4 +68,31 @@ fn a_length_without_inertia_costs_no_steps() {
     );
     let apart = (reduced.end.q - full.end.q).amax();
     assert!(apart < 1e-8, "{apart:e}");
+}
+
+/// However a guess of Euler parameters is off, they are assembled where three are zero, and the
+/// fourth has no inertia. What little the assembly leaves of the others must not count.
+#[test]
+fn a_body_on_a_slide_is_guided_from_every_guess() {
+    for first in [0.9, 1.0, 1.1] {
+        for [x, y, z] in [
+            [0.0, 0.0, 0.0],
+            [0.01, 0.0, 0.001],
+            [-0.02, 0.03, 0.0],
+            [0.001, 0.001, -0.05],
+            [0.0, 0.1, 0.0],
+            [1e-160, 0.0, 1e-30],
+        ] {
+            let mut load = GuidedBody::default();
+            let guess = &mut load.parameters;
+            (guess.guess_0, guess.guess_1) = (first, x);
+            (guess.guess_2, guess.guess_3) = (y, z);
+            let start = assemble(&load, &load.start(), 0.0).expect("the start assembles");
+            let ran = simulate(&load, &start, &Options::dop853(1.0, 1e-9), &mut []);
+            let end = ran.unwrap_or_else(|failure| panic!("{first} {x} {y} {z}: {failure}"));
+            let guided = [1.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0];
+            let off = (end.end.q - SVector::from(guided)).amax();
+            assert!(off < 1e-9, "{first} {x} {y} {z}: off by {off}");
+        }
+    }
 }
