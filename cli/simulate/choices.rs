@@ -175,7 +175,7 @@ fn positive(option: &'static str, value: Option<f64>) -> Result<(), CommandError
 }
 
 fn below_one(relative: Option<f64>) -> Result<(), CommandError> {
-    let wanted = "less than 1: it is the part of a value that may be wrong";
+    let wanted = "less than 1, as the part of a value that may be wrong";
     match relative {
         Some(value) if value >= 1.0 => out_of_range("--rtol", value, wanted),
         _ => Ok(()),
@@ -189,7 +189,7 @@ fn above_round_off(relative: Option<f64>) -> Result<(), CommandError> {
     };
     match relative {
         Some(value) if value > 0.0 && is_less(value) => {
-            let wanted = "at least 2.3e-15: less is lost in the round-off of numbers";
+            let wanted = "at least 2.3e-15, where the round-off of numbers begins";
             out_of_range("--rtol", value, wanted)
         }
         _ => Ok(()),

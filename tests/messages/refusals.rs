@@ -108,7 +108,7 @@ pub const CASES: &[Case] = &[
         "OutOfRange",
         "simulate slider_crank --rtol 1e-300",
         2,
-        "--rtol must be at least 2.3e-15: less is lost in the round-off of numbers, not 1e-300",
+        "--rtol must be at least 2.3e-15, where the round-off of numbers begins, not 1e-300",
     ),
     (
         "Write",
@@ -244,7 +244,7 @@ pub const CASES: &[Case] = &[
         "OutOfRange",
         "simulate slider_crank --rtol 2",
         2,
-        "--rtol must be less than 1: it is the part of a value that may be wrong, not 2",
+        "--rtol must be less than 1, as the part of a value that may be wrong, not 2",
     ),
     (
         "Runs",

@@ -29,6 +29,12 @@ pub struct Analysis {
 pub const NOT_POLYNOMIAL: u8 = 3;
 
 impl Analysis {
+    /// Whether it has the same value all along a run.
+    pub fn is_fixed(&self) -> bool {
+        let moves = self.coordinate || self.velocity() || self.acceleration;
+        !(self.time || moves || self.input || self.state)
+    }
+
     /// Whether a velocity occurs.
     pub fn velocity(&self) -> bool {
         self.degree > 0

@@ -88,7 +88,8 @@ impl Lowering<'_> {
                 let help = "terms with `der(…)` belong in `kinetic`, losses in `dissipation`";
                 self.report(error.help(help))
             }
-            Energy::Dissipation if !analysis.velocity() => {
+            // With a constant that is zero nothing is dissipated.
+            Energy::Dissipation if !analysis.velocity() && analysis.value != Some(0.0) => {
                 let error = Diagnostic::error(e.span, "the dissipation function needs a velocity");
                 self.report(error.help("write for example `dissipation 1/2*d*der(q1)^2;`"))
             }

@@ -165,6 +165,7 @@ impl Lowering<'_> {
             span: self.place_of(e.span),
         };
         match kind {
+            Energy::Dissipation if self.evaluator.graph.is_zero(value.id) => {}
             Energy::Kinetic => self.mechanism.kinetic.push(summand),
             Energy::Potential => self.mechanism.potential.push(summand),
             Energy::Dissipation => self.mechanism.dissipation.push(summand),
@@ -175,6 +176,7 @@ impl Lowering<'_> {
     fn force(&mut self, force: &Expr, on: &Expr, span: Span) -> Option<()> {
         let (strength, point) = (self.evaluator.evaluate(force), self.evaluator.evaluate(on));
         let (strength, point) = (strength?.operand(), point?.operand());
+        let strength = self.spread(&strength, &point);
         let fits =
             matches!(point, Value::Scalar(_) | Value::Vector(_)) && strength.same_shape(&point);
         if !fits {
@@ -398,6 +400,10 @@ impl Lowering<'_> {
         }
         let scalar = self.evaluator.scalar(value, "an event function")?;
         self.without_acceleration(value, &[scalar], "an event function")?;
+        if self.evaluator.analysis(scalar.id).is_fixed() {
+            let warning = Diagnostic::warning(value.span, "this never changes");
+            self.report::<()>(warning.help("write what changes its sign: `x - 0.5 rising`"));
+        }
         let full = self.indexed(&name.text);
         if let Some(first) = self.named.events.insert(full.clone(), name.span) {
             return self.report(twice(name, first));

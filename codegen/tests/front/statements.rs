@@ -74,6 +74,11 @@ fn a_force_works_on_coordinates_lengths_and_points() {
     let m = accept(&with(
         "input u = 1; force u on q; force [u, 2*der(q)] on [cos(q), w]; force -abs(w) on norm([q, w]);",
     ));
+    let nothing = accept(&with(
+        "force 0 on [q, w]; const d = 0; dissipation d*der(q)^2;",
+    ));
+    assert_eq!(nothing.forces[0].force.len(), 2);
+    assert!(nothing.dissipation.is_empty());
     let sizes: Vec<_> = m
         .forces
         .iter()

@@ -436,6 +436,7 @@ pub const STATEMENTS: &[&str] = &[
     "param l = 1; constraint l = 2;",
     "param l = 1; start { l = 1; }",
     "output o = q; output p = o;",
+    "event e: 2 crossing;",
     "coord c[8^(1/3)];",
     "start { q = w; }",
     "start { der(q)^2 = 1; }",
