@@ -52,6 +52,60 @@ fn friction_in_every_joint_of_a_loop_brings_it_to_rest() {
     }
 }
 
+/// What the friction of all joints can bear, by virtual work, beside what gravity asks of it.
+fn hold(q: f64, r: f64) -> f64 {
+    let a = (-q.sin() / r).asin();
+    let (turned, moved) = (-q.cos() / (r * a.cos()), -q.sin());
+    let moved = moved + q.sin() * turned;
+    let borne = 1.0 + (1.0 - turned).abs() + moved.abs();
+    (0.65 * 9.81 * q.cos()).abs() / borne
+}
+
+/// All functions are zero from the start, and one of the forces alone is enough to say how the
+/// motion goes on.
+#[test]
+fn friction_in_every_joint_holds_a_loop_that_begins_at_rest() {
+    for k in 0..30 {
+        let q0 = -3.1 + 0.21 * f64::from(k);
+        for part in [0.9, 1.1, 1.5, 4.0] {
+            let mut loops = Jointed::<f64>::default();
+            let parameters = &mut loops.parameters;
+            (parameters.q0, parameters.w0) = (q0, 0.0);
+            parameters.f = part * hold(q0, parameters.r);
+            let summary = run::<3, 2>(&loops, (1.0, 1e-9));
+            let moved = (summary.end.q[0] - q0).abs();
+            let name = format!(
+                "{q0} {part}: moved by {moved:e}, {} rejected",
+                summary.rejected
+            );
+            assert_eq!(part > 1.0, moved < 1e-12, "{name}");
+            assert!(summary.rejected < 100, "{name}");
+        }
+    }
+}
+
+/// A load that is not enough to move it leaves velocities of round-off, whose signs are no events,
+/// wherever a run begins.
+#[test]
+fn what_friction_holds_in_a_loop_does_not_stop_again() {
+    for q0 in [-2.0, -1.1, 0.3, 0.9, 1.4, 2.5] {
+        let mut loops = Jointed::<f64>::default();
+        let parameters = &mut loops.parameters;
+        (parameters.q0, parameters.w0) = (q0, 3.0);
+        parameters.f = 3.0 * hold(q0, parameters.r) + 3.0;
+        parameters.a = 2.0;
+        let held = run::<3, 2>(&loops, (4.0, 1e-9)).end;
+        for options in [Options::rk4(5.0, 5e-4), Options::rk4(5.0, 2e-3)] {
+            let mut diary = Diary::default();
+            let mechanism: &dyn Whole<f64, 3, 2> = &loops;
+            let ran = simulate(mechanism, &held, &options, &mut [&mut diary]);
+            let summary = ran.unwrap_or_else(|failure| panic!("{q0}: {failure}"));
+            assert!((summary.end.q - held.q).amax() < 1e-9, "{q0}");
+            assert!(diary.told.is_empty(), "{q0}: {} events", diary.told.len());
+        }
+    }
+}
+
 /// A run of the crank, and how often each of its events happened.
 fn cranked(mechanism: &Cranked<f64>, options: &Options<f64>) -> (Summary<f64, 4>, [Vec<f64>; 2]) {
     let start = assemble::<f64, _, 4, 2>(mechanism, &mechanism.start(), 0.0).expect("a start");

@@ -10,6 +10,11 @@ use crate::{Condition, DynamicsError, Real, Sides, State, Switch};
 /// The round-off of a switching function, in units of that of its size.
 const ROUND_OFF: f64 = 64.0;
 
+/// The round-off of a switching function of a size.
+pub(super) fn round_off_of<T: Real>(size: T) -> T {
+    size * T::EPSILON * T::from_f64(ROUND_OFF)
+}
+
 /// What an attempt at a step was shortened for.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Aim<T> {
@@ -129,11 +134,18 @@ impl<T: Real> Decided<T> {
     /// What switching functions and their rates are off by in any case, since they are sums of
     /// terms as large as they have been.
     pub(super) fn round_off(&self, index: usize) -> Switch<T> {
-        let part = T::EPSILON * T::from_f64(ROUND_OFF);
+        let Switch { value, rate } = self.sizes[index];
         Switch {
-            value: self.sizes[index].value * part,
-            rate: self.sizes[index].rate * part,
+            value: round_off_of(value),
+            rate: round_off_of(rate),
         }
+    }
+
+    /// How large a switching function was so far, or would become within a time: what begins at
+    /// rest has no size yet.
+    pub(super) fn known_size(&self, index: usize, time: T) -> T {
+        let Switch { value, rate } = self.sizes[index];
+        value.max(rate * time)
     }
 
     /// Takes note of how large a switching function is, or its rate.

@@ -15,7 +15,7 @@
 //! Source: Park & Barton, ACM Transactions on Modeling and Computer Simulation 6 (1996)
 //! 137–165 (discontinuity locking).
 
-use super::conditions::{Aim, Burst, Decided};
+use super::conditions::{Aim, Burst, Decided, round_off_of};
 use crate::crossing::{Left, NODES, SAME_TIME, Samples, first_crossing, nodes, told, zero};
 use crate::once::compiled_once;
 use crate::{Discontinuity, DynamicsError, Real, Sides, Switch, Switches, Switching, Watched};
@@ -122,11 +122,18 @@ impl<T: Real> dyn Motion<T> + '_ {
         self.rates(t, &mut values)?;
         let decided = self.decided();
         let count = decided.list.len().min(Sides::ROOM);
+        for (index, found) in values[..count].iter().enumerate() {
+            decided.take_note(index, *found);
+        }
         Ok((0..count).find(|&index| {
             let Switch { value, rate } = values[index];
             match decided.slides(index) {
                 true => !(T::zero()..=T::one()).contains(&decided.weights[index]),
-                false => value == T::zero() && rate * decided.side(index) < T::zero(),
+                // What stays zero since another condition is slid along leaves by round-off.
+                false => {
+                    let least = decided.round_off(index).rate;
+                    value == T::zero() && rate * decided.side(index) < -least
+                }
             }
         }))
     }
@@ -259,8 +266,9 @@ impl<T: Real> dyn Motion<T> + '_ {
         // A function that vanishes with one that is slid along: between the ends it is the error of
         // the step.
         let [first, last] = [samples.values[0], samples.values[NODES - 1]];
-        let vanishes = first.abs().max(last.abs()) <= round_off;
-        if decided.sliding != 0 && vanishes && size <= told * decided.sizes[index].value {
+        let known = decided.known_size(index, ends.1 - ends.0);
+        let vanishes = first.abs().max(last.abs()) <= round_off_of(known);
+        if decided.sliding != 0 && vanishes && size <= told * known {
             return Ok(None);
         }
         let (side, sides) = (decided.side(index), decided.sides);

@@ -145,7 +145,7 @@ impl<T: Real> Events<T> {
         };
         let values = along.values(events, state.t, On::Interpolant);
         let values = values.map_err(SimulateError::Observe)?;
-        self.round_off = round_off(functions, state, &values);
+        self.round_off = round_off(functions, state, &values, same_state(state));
         let known = values.iter().zip(&self.round_off);
         for (side, (value, round_off)) in self.sides.iter_mut().zip(known) {
             *side = match value.abs() <= *round_off {
@@ -166,6 +166,9 @@ impl<T: Real> Events<T> {
         functions: Functions<'_, T, N>,
         step: &Step<T, N>,
     ) -> Result<(), DynamicsError<T>> {
+        if self.begins && !self.is_empty() {
+            self.begin_step(functions, step);
+        }
         let mut write = |t, _, values: &mut [T]| {
             functions(&step.at(t), values);
             Ok(())
@@ -175,6 +178,23 @@ impl<T: Real> Events<T> {
             write: &mut write,
         };
         find_first()(self, &mut along)
+    }
+
+    /// Forgets the sides of functions that are zero but for velocities that change no coordinate
+    /// within the first step: what is at rest where a run begins tells no size of velocities.
+    fn begin_step<const N: usize>(&mut self, functions: Functions<'_, T, N>, step: &Step<T, N>) {
+        let (start, length) = (step.start(), step.end().t - step.start().t);
+        let unresolved = largest(&start.q) * T::EPSILON * T::from_f64(AT_ZERO) / length;
+        let mut values = [T::zero(); ROOM];
+        functions(start, &mut values);
+        let changes = round_off(functions, start, &values, [T::zero(), unresolved]);
+        let known = self.sides.iter_mut().zip(&mut self.round_off);
+        for ((side, least), (value, change)) in known.zip(values.iter().zip(changes)) {
+            *least = least.max(change);
+            if value.abs() <= *least {
+                *side = T::zero();
+            }
+        }
     }
 
     /// The next occurrence of the step that was looked at, the earliest first.
@@ -414,12 +434,23 @@ impl<T: Real> Along<'_, T> {
     }
 }
 
-/// How much the functions change, by these values, where round-off moves coordinates and velocities,
-/// one after the other: a state at which an event happened is no nearer to it.
+fn largest<T: Real, const N: usize>(x: &SVector<T, N>) -> T {
+    x.iter().fold(T::zero(), |most: T, x| most.max(x.abs()))
+}
+
+/// How far coordinates and velocities may differ for a state to be the same.
+pub(super) fn same_state<T: Real, const N: usize>(state: &State<T, N>) -> [T; 2] {
+    let unit = T::EPSILON.powf(T::from_f64(SAME_STATE));
+    [largest(&state.q) * unit, largest(&state.v) * unit]
+}
+
+/// How much the functions change, by these values, where round-off moves coordinates and velocities
+/// by so much, one after the other: a state at which an event happened is no nearer to it.
 pub(super) fn round_off<T: Real, const N: usize>(
     functions: Functions<'_, T, N>,
     state: &State<T, N>,
     values: &[T; ROOM],
+    [aside, faster]: [T; 2],
 ) -> [T; ROOM] {
     let mut changes = [T::zero(); ROOM];
     let mut observe = |moved: &State<T, N>| {
@@ -429,9 +460,6 @@ pub(super) fn round_off<T: Real, const N: usize>(
             *change += (*there - *here).abs();
         }
     };
-    let largest = |x: &SVector<T, N>| x.iter().fold(T::zero(), |most: T, x| most.max(x.abs()));
-    let unit = T::EPSILON.powf(T::from_f64(SAME_STATE));
-    let [aside, faster] = [largest(&state.q) * unit, largest(&state.v) * unit];
     let mut moved = *state;
     for i in 0..N {
         moved.q[i] += aside;

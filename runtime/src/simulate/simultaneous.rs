@@ -6,7 +6,7 @@
 //! A run that goes on from where an event ended another doesn't tell that event again, nor others
 //! that happen there, so that those are told before the run ends.
 
-use super::event::{Along, Events, Functions, On, ROOM, round_off, state_at};
+use super::event::{Along, Events, Functions, On, ROOM, round_off, same_state, state_at};
 use crate::crossing::SAME_TIME;
 use crate::once::compiled_once;
 use crate::{DynamicsError, Probe, Real, State, Step};
@@ -23,7 +23,7 @@ impl<T: Real> Events<T> {
     ) -> Result<(), DynamicsError<T>> {
         let mut here = [T::zero(); ROOM];
         functions(state, &mut here);
-        let round_off = round_off(functions, state, &here);
+        let round_off = round_off(functions, state, &here, same_state(state));
         let mut write = |t, on, values: &mut [T]| {
             functions(&state_at(probe, step, t, on)?, values);
             Ok(())
