@@ -67,6 +67,62 @@ proptest! {
     }
 }
 
+/// Polynomials in sines and cosines of two angles, with negative powers, of small coefficients:
+/// what rotations about oblique axes are made of.
+fn quotients() -> impl Strategy<Value = Vec<([i32; 4], i32)>> {
+    let power = prop_oneof![3 => Just(0), 2 => Just(2), 2 => Just(-2), 1 => -3..=3];
+    let powers = [power.clone(), power.clone(), power.clone(), power];
+    proptest::collection::vec((powers, -2..=2), 1..8)
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { cases: 2000, ..config() })]
+
+    #[test]
+    fn quotients_of_squares_keep_their_values(terms in quotients(), values in recipe::values()) {
+        let mut graph = Graph::new();
+        let angles = [Symbol::Coordinate(0), Symbol::Coordinate(1)].map(|s| graph.symbol(s));
+        let mut factors = Vec::new();
+        for angle in angles {
+            factors.extend([Function::Sin, Function::Cos].map(|f| graph.function(f, angle)));
+        }
+        let mut parts = Vec::new();
+        for (powers, coefficient) in &terms {
+            let powers = factors.iter().zip(powers).filter(|(_, n)| **n != 0);
+            let powers: Vec<(ExprId, i32)> = powers.map(|(factor, n)| (*factor, *n)).collect();
+            parts.push((graph.power_product(&powers), Number::integer(i64::from(*coefficient))));
+        }
+        let e = graph.weighted_sum(Number::ZERO, &parts);
+        let reduced = in_trig_ring(&mut graph, e);
+        let [reduced, plain] = [reduced, e].map(|e| evaluated(&graph, e, &values));
+        if reduced.is_sound() && plain.is_sound() {
+            agree(reduced.value, plain.value, reduced.value_error + plain.value_error)?;
+        }
+    }
+}
+
+/// `sin²x/sin²y + cos²y cos²x/sin²y + cos²x = 1/sin²y`.
+#[test]
+fn what_a_quotient_leaves_is_added_to_what_is_there() {
+    let mut graph = Graph::new();
+    let [y, x] = [Symbol::Coordinate(0), Symbol::Coordinate(1)].map(|s| graph.symbol(s));
+    let [sy, sx] = [y, x].map(|angle| graph.function(Function::Sin, angle));
+    let [cy, cx] = [y, x].map(|angle| graph.function(Function::Cos, angle));
+    let [first, second, third] = [
+        graph.power_product(&[(sx, 2), (sy, -2)]),
+        graph.power_product(&[(cx, 2), (cy, 2), (sy, -2)]),
+        graph.powi(cx, 2),
+    ];
+    let sum = graph.sum([first, second, third]);
+    let reduced = in_trig_ring(&mut graph, sum);
+    let (x, y) = (0.3_f64, 0.7_f64);
+    let value = graph.evaluate(reduced, &|symbol| match symbol {
+        Symbol::Coordinate(0) => y,
+        _ => x,
+    });
+    assert!((value - y.sin().powi(-2)).abs() < 1e-14, "{value}");
+}
+
 #[test]
 fn the_squares_of_sine_and_cosine_add_up_to_one() {
     let mut graph = Graph::new();

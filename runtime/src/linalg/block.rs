@@ -256,6 +256,9 @@ pub(super) fn make_diagonal<T: Real>(
     pivots: &mut [T],
     mut next: Next<'_>,
 ) {
+    if size == 0 {
+        return;
+    }
     let (here, there) = (&mut here[..size * size], &mut there[..size * size]);
     let pivots = &mut pivots[..size];
     // The largest entries of the rows that are left, in the place of their pivots.

@@ -303,12 +303,12 @@ impl<'a> Ring<'a> {
             terms.push((monomials.powers(monomial), coefficient));
         }
         let written = squares::with_sines_squared(terms, self.graph);
-        let mut polynomial = Vec::with_capacity(written.len());
+        // Beside negative powers of a sine, what is written differently may be the same.
+        let mut sum = Growing::default();
         for (powers, coefficient) in written {
-            polynomial.push((monomials.of(&powers), coefficient));
+            accumulate(&mut sum, monomials.of(&powers), coefficient);
         }
-        polynomial.sort_unstable_by(|(a, _), (b, _)| monomials.compare(*a, *b));
-        polynomial.into()
+        self.grown(sum)
     }
 
     fn constant(&self, value: Number) -> Polynomial {

@@ -52,13 +52,14 @@ fn divided(terms: Vec<Term>, cosine: ExprId, sine: ExprId) -> Vec<Term> {
             *n %= 2;
         }
         powers.retain(|(_, n)| *n != 0);
-        groups
-            .entry(powers)
-            .or_default()
-            .insert(squares, coefficient);
+        // A quotient by another cosine may have left what was there already.
+        let polynomial = groups.entry(powers).or_default();
+        let sum = polynomial.entry(squares).or_insert(Number::ZERO);
+        *sum = *sum + coefficient;
     }
     let mut written = Vec::new();
     for (rest, mut polynomial) in groups {
+        polynomial.retain(|_, coefficient| !coefficient.is_zero());
         let mut sines = 0;
         while let Some(quotient) = quotient(&polynomial) {
             polynomial = quotient;
