@@ -81,8 +81,11 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
         let (worst, row) = self.residual(&error);
         let (driven, _) = self.residual(&self.position.drift);
         let rate = self.metric.factor.length(&state.v.data.0[0]) + driven;
+        // What would take 1e31 s to move it by its size is at rest: there round-off would be compared
+        // with round-off.
+        let rest = self.coordinate_scale.range * T::EPSILON * T::EPSILON;
         // A comparison with NaN is false, so that an error that is NaN is refused.
-        match worst <= regular::<T>() * rate {
+        match worst <= regular::<T>() * rate + rest {
             true => Ok(()),
             false => Err(DynamicsError::ProjectionFailed {
                 t: state.t,

@@ -2,6 +2,7 @@
 //! dependent and all of them together do not, nothing is singular.
 
 use bricard_runtime::{Form, Interface, Options, Whole, assemble, simulate};
+use bricard_singular::descriptions::four_rods::FourRods;
 use bricard_singular::descriptions::spatial_parallelogram::SpatialParallelogram;
 use bricard_singular::descriptions::three_cranks::ThreeCranks;
 use bricard_singular::descriptions::turned_parallelogram::TurnedParallelogram;
@@ -182,4 +183,17 @@ fn so_they_are_for_least_squares() {
     assert!(full.passages.is_some_and(|passages| passages > 4));
     assert_eq!(reduced.passages, full.passages);
     assert!((reduced.end.q - full.end.q).amax() < 1e-6);
+}
+
+/// Velocities that are nothing but round-off contradict nothing.
+#[test]
+fn what_cannot_move_stays() {
+    for h in [0.1, 0.3, 1.0] {
+        let mut rods = FourRods::default();
+        rods.parameters.h = h;
+        let start = assemble(&rods, &rods.start(), 0.0).expect("it can be assembled");
+        let ran = simulate(&rods, &start, &options(1.0, Form::Reduced, 1e-9), &mut []);
+        let end = ran.unwrap_or_else(|failure| panic!("{h}: {failure}")).end;
+        assert!((end.q - start.q).amax() < 1e-12, "{h}: {}", end.q);
+    }
 }
