@@ -87,12 +87,7 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
         // A comparison with NaN is false, so that an error that is NaN is refused.
         match worst <= regular::<T>() * rate + rest {
             true => Ok(()),
-            false => Err(DynamicsError::ProjectionFailed {
-                t: state.t,
-                residual: error[row].abs(),
-                row,
-                structure: mechanism.structure(),
-            }),
+            false => Err(violated(mechanism, state, (row, error[row].abs()))),
         }
     }
 
@@ -248,13 +243,21 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
         state: &State<T, N>,
     ) -> DynamicsError<T> {
         let (_, row) = self.residual(&self.position.residual);
-        let residual = self.position.residual[row].abs();
-        DynamicsError::ProjectionFailed {
-            t: state.t,
-            residual,
-            row,
-            structure: mechanism.structure(),
-        }
+        violated(mechanism, state, (row, self.position.residual[row].abs()))
+    }
+}
+
+/// The error of a row that is violated by so much at a state.
+pub(crate) fn violated<T: Real, const N: usize, const R: usize>(
+    mechanism: &dyn Mechanism<T, N, R>,
+    state: &State<T, N>,
+    (row, residual): (usize, T),
+) -> DynamicsError<T> {
+    DynamicsError::ProjectionFailed {
+        t: state.t,
+        residual,
+        row,
+        structure: mechanism.structure(),
     }
 }
 

@@ -57,9 +57,9 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
         if self.rows.all_independent() || !self.is_prepared() {
             return Ok(false);
         }
-        self.observe_sizes(mechanism, state);
         mechanism.position(state, &mut self.position);
         self.factorise_metric(mechanism, Source::Position, state.t)?;
+        self.observe_sizes(mechanism);
         let mut before = self.factorise_constraints(Source::Position, Which::All);
         let leaves_out = !mechanism.structure().redundant.is_empty();
         if leaves_out && !self.session.chooses_rows {

@@ -9,14 +9,15 @@
 //! which nothing tells what they measure, are moved, too; what rows are there is evidence only
 //! for those that nearly vanish at the first state, and wherever else they are looked at do not.
 
-use super::Core;
 use super::erased::Constrained;
 use super::rows::RowsView;
 use super::singular_values::lift;
+use super::{Core, Source};
 use crate::equations::At;
 use crate::linalg::{Workspace, dot, independent_columns, is_definite, norm, scale};
 use crate::natural_size::{Kind, NaturalSizes};
 use crate::once::compiled_once;
+use crate::projection::violated;
 use crate::tolerance::{excusable, hull, regular, spacing};
 use crate::{DynamicsError, Mechanism, Position, Real, State};
 use core::f64::consts::TAU;
@@ -56,16 +57,12 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
         sampling()(&mut solver, state.at(), by_form, &workspace);
     }
 
-    /// Takes note of the sizes of all rows at an accepted state. Where they depend on time, one that
-    /// is zero at the start need not be zero later.
+    /// Takes note of the sizes of all rows at an accepted state, at which the metric is factorised.
+    /// Where they depend on time, one that is zero at the start need not be zero later.
     #[inline(never)]
-    pub(super) fn observe_sizes(
-        &mut self,
-        mechanism: &dyn Mechanism<T, N, R>,
-        state: &State<T, N>,
-    ) {
+    pub(super) fn observe_sizes(&mut self, mechanism: &dyn Mechanism<T, N, R>) {
         let (mut solver, workspace, _) = self.lend(mechanism);
-        observing()(&mut solver, state.at(), &workspace);
+        observing()(&mut solver, &workspace);
     }
 
     /// Takes note of the sizes of rows that were never anything but zero, and refuses an accepted
@@ -76,18 +73,16 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
         mechanism: &dyn Mechanism<T, N, R>,
         state: &State<T, N>,
     ) -> Result<(), DynamicsError<T>> {
-        self.observe_sizes(mechanism, state);
         mechanism.position(state, &mut self.position);
+        let factorised = self.factorise_metric(mechanism, Source::Position, state.t);
+        if factorised.is_ok() {
+            self.observe_sizes(mechanism);
+        }
         let mut without = (0..R).filter(|row| self.rows.scale(*row) == T::zero());
         let residual = |row: usize| self.position.residual[row].abs();
         let holds = |row: &usize| residual(*row) <= excusable();
         match without.find(|row| !holds(row)) {
-            Some(row) => Err(DynamicsError::ProjectionFailed {
-                t: state.t,
-                residual: residual(row),
-                row,
-                structure: mechanism.structure(),
-            }),
+            Some(row) => Err(violated(mechanism, state, (row, residual(row)))),
             None => Ok(()),
         }
     }
@@ -171,13 +166,26 @@ impl<'a, T: Real> Sizes<'a, T> {
         first: usize,
         workspace: &Workspace<'_, T>,
     ) {
-        if solver.visit(t, q).is_err() {
-            return;
+        if solver.visit(t, q).is_ok() {
+            self.measure_here(solver, first, workspace);
         }
+    }
+
+    /// The same where the constraints were evaluated last, and the metric is factorised.
+    fn measure_here(
+        &mut self,
+        solver: &mut dyn Constrained<T>,
+        first: usize,
+        workspace: &Workspace<'_, T>,
+    ) {
         solver.learn().metric.observe_pivots();
         workspace.scope(|workspace| {
             let (at, known) = (solver.constraints(), solver.known());
-            let (alone, lifted) = (workspace.numbers(known.r()), workspace.numbers(q.len()));
+            let r = known.r();
+            let (alone, lifted) = (
+                workspace.numbers(r),
+                workspace.numbers(at.jacobian.len() / r),
+            );
             rows_alone(at.mass, at.jacobian, alone);
             for (row, alone) in alone.iter().enumerate() {
                 lift(at.jacobian, known, row, lifted);
@@ -442,21 +450,17 @@ fn median<T: Real>(numbers: [T; SAMPLES]) -> T {
     sorted[count / 2]
 }
 
-/// Takes note of the sizes of all rows at a position.
-fn observe_sizes<T: Real>(
-    solver: &mut dyn Constrained<T>,
-    (t, q): (T, &[T]),
-    workspace: &Workspace<'_, T>,
-) {
+/// Takes note of the sizes of all rows where the constraints were evaluated last.
+fn observe_sizes<T: Real>(solver: &mut dyn Constrained<T>, workspace: &Workspace<'_, T>) {
     let r = solver.known().r();
     let mut here = Sizes::new(r, workspace);
-    here.measure(solver, (t, q), 0, workspace);
+    here.measure_here(solver, 0, workspace);
     here.observe_all(&mut solver.learn().rows);
 }
 
 compiled_once! {
-    fn observing<T>: fn(&mut dyn Constrained<T>, At<'_, T>, &Workspace<'_, T>) =
-        |solver, state, workspace| observe_sizes(solver, (state.t, state.q), workspace);
+    fn observing<T>: fn(&mut dyn Constrained<T>, &Workspace<'_, T>) =
+        |solver, workspace| observe_sizes(solver, workspace);
 }
 compiled_once! {
     fn sampling<T>: fn(&mut dyn Constrained<T>, At<'_, T>, bool, &Workspace<'_, T>) =
