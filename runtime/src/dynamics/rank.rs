@@ -13,7 +13,7 @@ use super::singular_values::{SingularValueDecomposition, lift, lift_rows};
 use super::vanishing_gradient::has_one_sign;
 use super::{Core, Source, Which};
 use crate::equations::At;
-use crate::linalg::{Workspace, add_scaled, multiply_upper_transposed, norm, remove};
+use crate::linalg::{Workspace, add_scaled, largest_of, multiply_upper_transposed, norm, remove};
 use crate::once::compiled_once;
 use crate::tolerance::{difference, negligible, passes, regular, window};
 use crate::{DynamicsError, Mechanism, Real, Singularity, State};
@@ -174,7 +174,15 @@ fn rank_nearby<T: Real>(
     }
     solver.visit(state.t, state.q)?;
     let Some((row, rank)) = lost else {
-        return Ok(rank_here);
+        return match decomposition.above(negligible()) > rank_here {
+            true => Err(DynamicsError::SingularConfiguration {
+                t: state.t,
+                kind: Singularity::Unresolved,
+                row: largest_of(decomposition.left(rank_here)).0,
+                structure: solver.structure(),
+            }),
+            false => Ok(rank_here),
+        };
     };
     // Whether a row is like a square shows only where it does not depend on time.
     let stands_still = solver.structure().is_scleronomic_at(row);

@@ -103,7 +103,7 @@ impl<T: Real> Sheet<'_, T> {
         let sine = self.frame.smallest();
         let mut why = Some(Obstacle::Unresolved);
         let mut placement = Placement::Regular;
-        if sine < window() && !self.chart.gap {
+        if sine < window() && !self.chart.gap && self.chart.moves() {
             let placed = workspace.scope(|workspace| {
                 let like = self.frame.eliminated(workspace);
                 self.place_between(state, &like, point, workspace)
@@ -119,7 +119,8 @@ impl<T: Real> Sheet<'_, T> {
         // Next to a gap the sheet is as smooth as it is narrow, and short steps follow it.
         let gap = self.chart.gap || placement == Placement::Gap;
         let noise = self.chart.accepted * T::from_f64(10.0);
-        let is_noise = !gap && sine < window() && T::EPSILON > noise * sine * sine;
+        let is_noise =
+            !gap && self.chart.moves() && sine < window() && T::EPSILON > noise * sine * sine;
         if let Some(why) = why.filter(|_| is_noise) {
             return Err(why);
         }

@@ -251,6 +251,12 @@ impl<T: Real> ChartView<'_, T> {
         self.column_scale.len()
     }
 
+    /// Whether anything moves: the coordinates along the sheet, or the sheet with time. Else the
+    /// sheet is a point, which no other crosses.
+    pub(super) fn moves(&self) -> bool {
+        self.freedoms > 0 || self.speed > T::zero()
+    }
+
     /// The length of a vector in the diagonal of the metric.
     pub(super) fn length(&self, x: &[T]) -> T {
         length(x, self.column_scale)

@@ -1,8 +1,12 @@
 //! Constraints of which some follow from the others: where those that were chosen become
 //! dependent and all of them together do not, nothing is singular.
 
-use bricard_runtime::{Form, Interface, Options, Whole, assemble, simulate};
+use bricard_runtime::{
+    DynamicsError, Form, IntegrateError, Interface, Options, SimulateError, Singularity, Whole,
+    assemble, simulate,
+};
 use bricard_singular::descriptions::four_rods::FourRods;
+use bricard_singular::descriptions::gate::Gate;
 use bricard_singular::descriptions::spatial_parallelogram::SpatialParallelogram;
 use bricard_singular::descriptions::three_cranks::ThreeCranks;
 use bricard_singular::descriptions::turned_parallelogram::TurnedParallelogram;
@@ -195,5 +199,34 @@ fn what_cannot_move_stays() {
         let ran = simulate(&rods, &start, &options(1.0, Form::Reduced, 1e-9), &mut []);
         let end = ran.unwrap_or_else(|failure| panic!("{h}: {failure}")).end;
         assert!((end.q - start.q).amax() < 1e-12, "{h}: {}", end.q);
+    }
+}
+
+/// Where a small distance is all that keeps something from moving, it stays; if the distance is
+/// too small for that to be sure, nothing moves off as if there were none.
+#[test]
+fn two_axes_next_to_one_another_are_not_one() {
+    for apart in [0.1, 1e-2, 1e-3, 1e-4, 1e-5, 1e-7, 1e-8] {
+        let mut gate = Gate::default();
+        gate.parameters.apart = apart;
+        let start = assemble(&gate, &gate.start(), 0.0).expect("it can be assembled");
+        let ran = simulate(&gate, &start, &options(1.0, Form::Reduced, 1e-8), &mut []);
+        match ran.map_err(|failure| failure.error) {
+            Ok(ran) => {
+                assert!(apart > 1e-6, "{apart:e} decides nothing");
+                assert!(
+                    (ran.end.q - start.q).amax() < 1e-9,
+                    "{apart:e}: {}",
+                    ran.end.q
+                );
+            }
+            Err(SimulateError::Integrate(IntegrateError::Dynamics(
+                DynamicsError::SingularConfiguration { t, kind, .. },
+            ))) => {
+                assert!(apart < 1e-6, "{apart:e}");
+                assert_eq!((t, kind), (0.0, Singularity::Unresolved), "{apart:e}");
+            }
+            Err(error) => panic!("{apart:e}: {error}"),
+        }
     }
 }
