@@ -24,6 +24,8 @@ pub enum Singularity {
     Undetermined,
     /// The gradient of a constraint vanishes wherever it holds.
     Vanishing,
+    /// The gradient of a constraint jumps, and with it the velocities that it allows.
+    Kink,
 }
 
 impl Display for Singularity {
@@ -51,6 +53,11 @@ impl Display for Singularity {
                 "has a gradient that vanishes not only here but wherever it holds, so that it \
                  restricts no motion; if it says that a square is zero, write what is squared; \
                  else check the parameters"
+            }
+            Self::Kink => {
+                "has a kink, as a length has where it becomes zero: the velocities that it allows \
+                 jump, and no smooth motion goes on; end the run before, or describe by an event \
+                 what happens there"
             }
             Self::Undetermined => {
                 "depends on the others, and nothing tells which of the branches of motion that \

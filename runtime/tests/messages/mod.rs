@@ -94,7 +94,7 @@ fn all_of<E: Variants>(error: &E) -> Vec<&'static str> {
     all
 }
 
-variants!(Singularity: Unresolved, Turning, Touching, Drifted, Undetermined, Vanishing;);
+variants!(Singularity: Unresolved, Turning, Touching, Drifted, Undetermined, Vanishing, Kink;);
 variants!(
     Watched: KineticEnergy, PotentialEnergy, Power, ConstraintError, Event, Condition;
 );

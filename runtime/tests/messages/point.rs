@@ -271,6 +271,12 @@ pub fn doubled(state: &State<f64, 2>) -> Jet {
     )
 }
 
+/// Two lines that meet in a corner at the origin.
+pub fn corner(state: &State<f64, 2>) -> Jet {
+    let (x, y) = (state.q[0], state.q[1]);
+    Jet(y - x.abs(), [-x.signum(), 1.0].into(), [[0.0; 2]; 2], 0.0)
+}
+
 /// `y = 0`, which has no solution after t = 1/2.
 pub fn torn(state: &State<f64, 2>) -> Jet {
     let mut jet = line(state);

@@ -1,8 +1,8 @@
 //! Errors of runs.
 
 use super::point::{
-    POINT, Point, REGULAR, WITH_ANGLE, WITH_EVENT, WITH_MANY_EVENTS, crossing, cusp, doubled, line,
-    squared, three_lines, torn,
+    POINT, Point, REGULAR, WITH_ANGLE, WITH_EVENT, WITH_MANY_EVENTS, corner, crossing, cusp,
+    doubled, line, squared, three_lines, torn,
 };
 use super::{Case, Said};
 use crate::fixtures::{Framed, simulate, system_of};
@@ -208,6 +208,14 @@ pub const MOTIONS: &[Case] = &[
         "at t = 0 s the constraint `g = 0` (line 3) has a gradient that vanishes not only here \
          but wherever it holds, so that it restricts no motion; if it says that a square is \
          zero, write what is squared; else check the parameters",
+    ),
+    (
+        "Singularity::Kink",
+        "`y = |x|`, followed into its corner",
+        || from(Point::on(corner), [[-0.5, 0.5], [1.0, -1.0]], dp5()),
+        "at t = … s the constraint `g = 0` (line 3) has a kink, as a length has where it becomes \
+         zero: the velocities that it allows jump, and no smooth motion goes on; end the run \
+         before, or describe by an event what happens there",
     ),
     (
         "DynamicsError::NotRegular",

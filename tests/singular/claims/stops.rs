@@ -1,8 +1,12 @@
 //! Laws of time that turn back beside a dead centre, and in it: states there need not lose
-//! more digits than round-off takes.
+//! more digits than round-off takes. A kink, at which no smooth motion goes on.
 
-use bricard_runtime::{Method, Options, Whole, assemble, simulate};
+use bricard_runtime::{
+    DynamicsError, IntegrateError, Method, Options, SimulateError, Singularity, Whole, assemble,
+    simulate,
+};
 use bricard_singular::descriptions::driven_crank::DrivenCrank;
+use bricard_singular::descriptions::pulled_over::PulledOver;
 use bricard_singular::{Score, find, run_all};
 use core::f64::consts::FRAC_PI_2;
 
@@ -63,6 +67,50 @@ fn a_law_of_time_that_turns_in_a_dead_centre_passes_nothing() {
             let summary = ran.unwrap_or_else(|failure| panic!("{name}: {failure}"));
             let expected = if beyond > 0.0 { 2 } else { 0 };
             assert_eq!(summary.passages, Some(expected), "{name}");
+        }
+    }
+}
+
+/// The length of a rope's part has a kink where it becomes zero. The run ends there, with the
+/// energy that it began with: no projection takes the velocity away.
+#[test]
+fn a_run_ends_where_a_constraint_has_a_kink() {
+    let mechanism = PulledOver::<f64>::default();
+    let mechanism: &dyn Whole<f64, 4, 2> = &mechanism;
+    let start = assemble(mechanism, &mechanism.start(), 0.0).expect("it can be assembled");
+    // Both are accelerated by half of g.
+    let (arrival, speed) = ((4.0_f64 / 9.81).sqrt(), (4.0 * 9.81 / 4.0_f64).sqrt());
+    for method in [Method::Dop853, Method::Dp5, Method::Radau5, Method::Radau9] {
+        for tolerance in [1e-4, 1e-6, 1e-9, 1e-11] {
+            let options = Options {
+                method,
+                ..Options::dop853(1.0, tolerance)
+            };
+            let name = format!("{method:?} {tolerance:e}");
+            let failure = simulate(mechanism, &start, &options, &mut []).expect_err(&name);
+            let end = failure.summary.end;
+            let SimulateError::Integrate(IntegrateError::Dynamics(
+                DynamicsError::SingularConfiguration { kind, .. },
+            )) = failure.error
+            else {
+                panic!("{name}: {failure}");
+            };
+            assert_eq!(kind, Singularity::Kink, "{name}");
+            assert!(
+                (end.t - arrival).abs() < 10.0 * tolerance,
+                "{name}: {}",
+                end.t
+            );
+            assert!(
+                (end.v[1] - speed).abs() < 50.0 * tolerance,
+                "{name}: {}",
+                end.v
+            );
+            assert!(
+                failure.summary.steps < 200,
+                "{name}: {}",
+                failure.summary.steps
+            );
         }
     }
 }
