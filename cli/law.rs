@@ -120,7 +120,9 @@ fn whole(model: &Model, name: &str) -> Result<(), CommandError> {
     let reason = match model.law_of(first) {
         _ if first == name => return Ok(()),
         Some(_) => format!("the law of `{first}` is given as a whole: write `{first}=[…]`"),
-        None => "the law of an input inside a part stands in the description".to_string(),
+        None => "an input inside a part is held at a number here; a law stands in the part: write \
+                 one that has it, or a force in its place"
+            .to_string(),
     };
     let name = name.to_string();
     Err(CommandError::InvalidSetting { name, reason })

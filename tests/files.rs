@@ -47,6 +47,11 @@ fn pictures_are_of_the_kind_that_their_names_say() {
     for caption in ["t = 0.00 s", "t = 0.40 s", "t = 1.00 s"] {
         assert!(strip.contains(caption), "no `{caption}`");
     }
+    // Of few rows each is shown once, with its own time.
+    let few = drawn("few.svg", &["--every", "0.3", "--film"]);
+    let few = String::from_utf8(few).expect("text");
+    let captions: Vec<&str> = few.split("t = ").skip(1).map(|x| &x[..6]).collect();
+    assert_eq!(captions, ["0.00 s", "0.30 s", "0.60 s", "0.90 s", "1.00 s"]);
 }
 
 #[test]

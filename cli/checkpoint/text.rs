@@ -57,7 +57,7 @@ impl Checkpoint {
     /// Why a run can't go on from it.
     pub fn read(text: &str, run: &str, structure: &Structure) -> Result<Self, &'static str> {
         let value: Value = serde_json::from_str(text)
-            .map_err(|_| "it is no checkpoint; give a file that --checkpoint wrote")?;
+            .map_err(|_| "it is no checkpoint, or damaged; give a file as --checkpoint wrote it")?;
         if value["format"] != FORMAT {
             return Err("it is no checkpoint of this version of bricard; begin the run anew");
         }

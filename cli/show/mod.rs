@@ -141,18 +141,15 @@ fn heading(mechanism: &Mechanism, subject: &Subject) -> String {
     });
     lines.push(String::new());
     for (i, coordinate) in mechanism.coordinates.iter().enumerate() {
-        let unit = if coordinate.unit.is_empty() {
-            ""
-        } else {
-            &format!(" ({})", coordinate.unit)
+        let (name, unit) = (&coordinate.name, &coordinate.unit);
+        let what = match (i < n, unit.as_str()) {
+            (true, "") => name.clone(),
+            (true, unit) => format!("{name} ({unit})"),
+            (false, "") => format!("the integral of {name}"),
+            (false, unit) => format!("the integral of {name} (in {unit})"),
         };
         let docs = first_sentence(&coordinate.docs);
-        let what = if i < n { "" } else { "the integral of " };
-        lines.push(
-            format!("q[{}] is {what}{}{unit}  {docs}", i + 1, coordinate.name)
-                .trim_end()
-                .into(),
-        );
+        lines.push(format!("q[{}] is {what}  {docs}", i + 1).trim_end().into());
     }
     for (i, constraint) in mechanism.constraints.iter().enumerate() {
         lines.push(format!(

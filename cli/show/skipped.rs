@@ -144,7 +144,7 @@ fn time(graph: &Graph, equations: &Equations) -> Option<String> {
     })
 }
 
-/// Coordinates on which nothing depends.
+/// Coordinates on which nothing depends, among them integrals of states.
 fn ignorable(mechanism: &Mechanism, equations: &Equations) -> Option<String> {
     let e = equations;
     let graph = &mechanism.graph;
@@ -153,9 +153,12 @@ fn ignorable(mechanism: &Mechanism, equations: &Equations) -> Option<String> {
     let entries = e.inertial().into_iter().chain(others.copied());
     let present: BTreeSet<Symbol> = entries.flat_map(|entry| graph.symbols(entry)).collect();
     let absent = mechanism.coordinates.iter().enumerate();
-    let absent: Vec<&str> = absent
+    let absent: Vec<String> = absent
         .filter(|(i, _)| !present.contains(&Symbol::Coordinate(*i as u32)))
-        .map(|(_, coordinate)| coordinate.name.as_str())
+        .map(|(i, coordinate)| match i < mechanism.freedoms() {
+            true => coordinate.name.clone(),
+            false => format!("the integral of {}", coordinate.name),
+        })
         .collect();
     (!absent.is_empty()).then(|| {
         format!(

@@ -17,6 +17,8 @@ const STRIP: usize = 6;
 /// Frames of a moving picture for each second, and the most of them.
 const RATE: f64 = 25.0;
 const MOST: usize = 250;
+/// How long a moving picture lasts at most (s): a longer run is shown faster.
+const LONGEST: f64 = 10.0;
 /// Earlier configurations that a strip shows faintly, and how far apart they are, as a part
 /// of the distance of its frames.
 const GHOSTS: usize = 3;
@@ -53,34 +55,67 @@ pub fn film(
                       `draw line([0, 0], A);`";
         return Err(failed(reason.to_string()));
     }
-    let time = |row: Option<&Vec<f64>>| row.and_then(|row| row.first()).copied().unwrap_or(0.0);
-    let (begin, end) = (time(rows.first()), time(rows.last()));
-    let at = |t: f64| {
-        let after = rows.partition_point(|row| row[0] < t - 1e-9);
-        rows[after.min(rows.len() - 1)].clone()
-    };
-    let seen = |times: &[f64]| {
-        let rows: Vec<Vec<f64>> = times.iter().map(|t| at(*t)).collect();
+    let scene = |rows: &[&Vec<f64>]| {
+        let rows: Vec<Vec<f64>> = rows.iter().map(|row| (*row).clone()).collect();
         mechanism.scene(&rows).map_err(failed)
     };
+    let (begin, end) = (time(rows.first()), time(rows.last()));
     if moves(path) {
         let count = (((end - begin) * RATE).ceil() as usize).clamp(2, MOST);
-        let times = spread(begin, end, count);
-        let frames = moving(&times, &seen(&times)?);
-        let delay = (HUNDREDTHS * (end - begin) / (count - 1) as f64).round();
-        let bytes = gif(path, title, &frames, delay.clamp(2.0, 1000.0) as u16)?;
+        let chosen = nearest(rows, spread(begin, end, count));
+        let frames = moving(&chosen, &scene(&chosen)?);
+        let pace = (LONGEST / (end - begin)).min(1.0);
+        let bytes = gif(path, title, &frames, &delays(&chosen, pace))?;
         return replace(path, &bytes);
     }
-    let shown = spread(begin, end, STRIP);
     let apart = APART * (end - begin) / (STRIP - 1) as f64;
-    let earlier = |t: f64| {
-        (0..=GHOSTS)
-            .rev()
-            .map(move |k| (t - apart * k as f64).max(begin))
+    let now = nearest(rows, spread(begin, end, STRIP));
+    let before = |row: &&Vec<f64>| {
+        let times = (1..=GHOSTS).rev().map(|k| row[0] - apart * k as f64);
+        let earlier = nearest(rows, times.filter(|t| *t >= begin));
+        earlier
+            .into_iter()
+            .filter(|other| other[0] < row[0])
+            .collect()
     };
-    let times: Vec<f64> = shown.iter().flat_map(|t| earlier(*t)).collect();
-    let frames = still(&shown, &seen(&times)?);
+    let before: Vec<Vec<&Vec<f64>>> = now.iter().map(before).collect();
+    let groups = now.iter().zip(&before);
+    let all: Vec<&Vec<f64>> = groups
+        .flat_map(|(now, before)| before.iter().chain([now]).copied())
+        .collect();
+    let frames = still(&now, &before, &scene(&all)?);
     raster::write(path, &frames_as_svg(sheet, &frames)?, sheet.width.is_some())
+}
+
+fn time(row: Option<&Vec<f64>>) -> f64 {
+    row.and_then(|row| row.first()).copied().unwrap_or(0.0)
+}
+
+/// The rows that are nearest to some times, each once: a picture shows a configuration that was
+/// computed, with its time.
+fn nearest(rows: &[Vec<f64>], times: impl IntoIterator<Item = f64>) -> Vec<&Vec<f64>> {
+    let place = |t: f64| {
+        let after = rows.partition_point(|row| row[0] < t).min(rows.len() - 1);
+        let before = after.saturating_sub(1);
+        match t - rows[before][0] < rows[after][0] - t {
+            true => before,
+            false => after,
+        }
+    };
+    let mut places: Vec<usize> = times.into_iter().map(place).collect();
+    places.dedup();
+    places.into_iter().map(|place| &rows[place]).collect()
+}
+
+/// How long each frame is shown, in hundredths of a second.
+fn delays(rows: &[&Vec<f64>], pace: f64) -> Vec<u16> {
+    let shown = |pair: &[&Vec<f64>]| {
+        let delay = (HUNDREDTHS * pace * (pair[1][0] - pair[0][0])).round();
+        delay.clamp(2.0, 1000.0) as u16
+    };
+    let mut delays: Vec<u16> = rows.windows(2).map(shown).collect();
+    delays.push(delays.last().copied().unwrap_or(100));
+    delays
 }
 
 /// Times at equal distances, both ends among them.
@@ -93,27 +128,25 @@ fn caption(t: f64) -> String {
     format!("t = {t:.2} s")
 }
 
-/// The frames of a strip, of scenes with those before each.
-fn still(times: &[f64], scene: &Scene) -> Vec<Frame> {
+/// The frames of a strip, each with those before it.
+fn still(now: &[&Vec<f64>], before: &[Vec<&Vec<f64>>], scene: &Scene) -> Vec<Frame> {
     let spatial = is_spatial(scene);
-    let drawn = |frame: &Vec<f64>| shapes(scene, frame, spatial);
-    let groups = scene.frames.chunks(GHOSTS + 1).zip(times);
+    let mut drawn = scene
+        .frames
+        .iter()
+        .map(|frame| shapes(scene, frame, spatial));
+    let groups = now.iter().zip(before);
     groups
-        .map(|(group, t)| {
-            let (now, before) = group
-                .split_last()
-                .map_or((None, group), |(x, y)| (Some(x), y));
-            Frame {
-                caption: caption(*t),
-                now: now.map(drawn).unwrap_or_default(),
-                before: before.iter().map(drawn).collect(),
-            }
+        .map(|(row, before)| Frame {
+            before: drawn.by_ref().take(before.len()).collect(),
+            now: drawn.next().unwrap_or_default(),
+            caption: caption(row[0]),
         })
         .collect()
 }
 
 /// The frames of a moving picture, each with the paths of its points.
-fn moving(times: &[f64], scene: &Scene) -> Vec<Frame> {
+fn moving(rows: &[&Vec<f64>], scene: &Scene) -> Vec<Frame> {
     let spatial = is_spatial(scene);
     let all: Vec<Vec<Shape>> = scene
         .frames
@@ -124,25 +157,30 @@ fn moving(times: &[f64], scene: &Scene) -> Vec<Frame> {
         let points = shapes.iter().filter(|s| matches!(s, Shape::Trace(_)));
         points.cloned().collect::<Vec<_>>()
     };
-    let frame = |(i, t): (usize, &f64)| Frame {
-        caption: caption(*t),
+    let frame = |(i, row): (usize, &&Vec<f64>)| Frame {
+        caption: caption(row[0]),
         now: all.get(i).cloned().unwrap_or_default(),
         before: all[i.saturating_sub(TRAIL)..i].iter().map(trace).collect(),
     };
-    times.iter().enumerate().map(frame).collect()
+    rows.iter().enumerate().map(frame).collect()
 }
 
-/// A moving picture; `delay` is in hundredths of a second.
-fn gif(path: &Path, title: &str, frames: &[Frame], delay: u16) -> Result<Vec<u8>, CommandError> {
+/// A moving picture; the delays are in hundredths of a second.
+fn gif(
+    path: &Path,
+    title: &str,
+    frames: &[Frame],
+    delays: &[u16],
+) -> Result<Vec<u8>, CommandError> {
     let failed = |reason: String| CommandError::Draw(path.to_path_buf(), reason);
     let mut pictures = Vec::new();
-    for svg in film_as_svg(path, title, frames) {
+    for (svg, delay) in film_as_svg(path, title, frames).zip(delays) {
         let pixels = pixels(&svg?, DETAIL).map_err(failed)?;
         let side = |length: u32| u16::try_from(length).unwrap_or(u16::MAX);
         let (width, height) = (side(pixels.width()), side(pixels.height()));
         let mut colours = pixels.take();
         let mut picture = gif::Frame::from_rgba_speed(width, height, &mut colours, MATCHING);
-        picture.delay = delay;
+        picture.delay = *delay;
         pictures.push(picture);
     }
     let (width, height) = pictures

@@ -22,7 +22,7 @@ const INTRODUCTION: &str = "\
 
 Written by `bricard validate`, which fails if a bound is not kept. Errors are those at
 the end of the run, against closed forms and computed references whose sources stand in
-`cli/validate/list.rs`. The energy is held against what it was at the start and the
+`cli/validate/list.rs`. The energy is compared with what it was at the start and the
 power supplied since; the constraint error is the largest of a constraint equation, in
 its own unit. Times are those of the machine that wrote the table.
 

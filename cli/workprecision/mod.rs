@@ -67,7 +67,7 @@ pub fn workprecision(arguments: &WorkPrecision) -> Result<(), CommandError> {
     for path in [&arguments.out, &arguments.csv].into_iter().flatten() {
         probe(path)?;
     }
-    say("computing the motion to compare with, in numbers of 106 bits");
+    say("computing the motion to compare with, in double-double arithmetic");
     let described = described_with(&arguments.name, &set)?;
     let exact = exact(&described, &changes, arguments.until)?;
     let forms = forms(&arguments.forms, structure.constraints.is_empty());

@@ -13,7 +13,7 @@ pub enum Singularity {
     /// The sheets of the constraint set cannot be told apart by the digits there are: they
     /// nearly touch, or a gap keeps them apart that is not much more than round-off.
     Unresolved,
-    /// The sheet turns faster than steps can follow, or the motion left it.
+    /// The sheet ends or turns faster than steps can follow, or the motion left it.
     Turning,
     /// Sheets touch without crossing, or more than two meet.
     Touching,
@@ -37,8 +37,9 @@ impl Display for Singularity {
                  that of another, write both by one parameter"
             }
             Self::Turning => {
-                "nearly depends on the others, and the branch of motion turns faster than steps \
-                 can follow; take a smaller tolerance or step"
+                "nearly depends on the others, and the branch of motion ends, or turns faster than \
+                 steps can follow; check that what is prescribed can be reached, or take a smaller \
+                 tolerance or step"
             }
             Self::Touching => {
                 "depends on the others where branches of motion touch, so that the way on can't be \

@@ -141,7 +141,7 @@ pub const CASES: &[Case] = &[
         "Checkpoint",
         "simulate slider_crank --resume broken.mech",
         2,
-        "can't go on from broken.mech: it is no checkpoint; give a file that --checkpoint wrote",
+        "can't go on from broken.mech: it is no checkpoint, or damaged; give a file as --checkpoint wrote it",
     ),
     (
         "NoFile",

@@ -327,11 +327,8 @@ impl Evaluator {
             let error = Diagnostic::error(span, format!("`{name}` is not declared"));
             return self.report(error.help(help));
         }
-        if self.scope.outputs.contains(name) {
-            let error = Diagnostic::error(span, format!("`{name}` is an output"));
-            return self.report(error.help(format!(
-                "what formulas use is declared by `let {name} = …;`; an output shows it"
-            )));
+        if self.scope.outputs.contains(&self.scope.full(name)) {
+            return self.output_in_formula(name, span);
         }
         // Whoever writes `phi` or `psi` means no `pi`, nor by `T` the time.
         let built_in = BUILT_IN.iter().map(|(name, _)| *name);

@@ -6,12 +6,12 @@
 use super::Mechanism;
 use super::evaluate::Evaluator;
 use super::lowering::{Lowering, Named};
-use super::part::{LIBRARY, Placed};
+use super::part::{LIBRARY, Placed, output_names};
 use super::scope::{Entry, Kind};
 use super::symbol::{Graph, Symbol};
 use crate::diagnostic::{Diagnostic, Diagnostics, Span};
 use crate::expr::ExprId;
-use crate::syntax::ast::{Declared, Energy, Item, ItemKind};
+use crate::syntax::ast::{Energy, Item, ItemKind};
 use crate::syntax::messages::REMOVE;
 use crate::syntax::{self, Model};
 use rustc_hash::FxHashMap;
@@ -70,11 +70,7 @@ fn begun<'a>(
     let mut evaluator = Evaluator::default();
     evaluator.folder = folder.map(Path::to_path_buf);
     evaluator.scope.unreadable = model.unreadable.iter().cloned().collect();
-    let outputs = model.items.iter().filter_map(|item| match &item.kind {
-        ItemKind::Declaration(d) if d.kind == Declared::Output => Some(d.name.text.clone()),
-        _ => None,
-    });
-    evaluator.scope.outputs = outputs.collect();
+    evaluator.scope.outputs = output_names(&model.items).map(str::to_string).collect();
     Lowering {
         evaluator,
         mechanism: Mechanism::named(&model.name.text, &model.docs),

@@ -95,6 +95,9 @@ impl Evaluator {
         if self.scope.unreadable.contains(name) {
             return None;
         }
+        if self.scope.outputs.contains(&format!("{path}.{name}")) {
+            return self.output_in_formula(name, span);
+        }
         let known = names.iter().map(String::as_str);
         let help = match nearest(name, known.clone()) {
             Some(near) => did_you_mean(near),
@@ -102,6 +105,14 @@ impl Evaluator {
         };
         let message = format!("the part `{path}` has no `{name}`");
         self.report(Diagnostic::error(span, message).help(help))
+    }
+
+    /// An output, which no formula can use.
+    pub fn output_in_formula(&mut self, name: &str, span: Span) -> Option<Value> {
+        let error = Diagnostic::error(span, format!("`{name}` is an output"));
+        self.report(error.help(format!(
+            "what formulas use is declared by `let {name} = …;`; an output shows it"
+        )))
     }
 
     /// A name behind the dot of what is no part.

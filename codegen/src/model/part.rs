@@ -201,6 +201,8 @@ impl<'a> Lowering<'a> {
             let mut names: Vec<String> = declared_names(&part.items).collect();
             names.extend(part.arguments.iter().map(|a| a.name.text.clone()));
             this.evaluator.parts.used.insert(path.to_string(), names);
+            let outputs = output_names(&part.items).map(|name| format!("{path}.{name}"));
+            this.evaluator.scope.outputs.extend(outputs);
             this.place(&part.items, &inner, placed);
         });
         Some(())
@@ -307,6 +309,14 @@ fn waiting(
         index: index.map(|(index, i)| (index.clone(), i)),
         argument_of: Some(part.name.text.clone()),
     }
+}
+
+/// The names of outputs that statements declare.
+pub fn output_names(items: &[Item]) -> impl Iterator<Item = &str> {
+    items.iter().filter_map(|item| match &item.kind {
+        ItemKind::Declaration(d) if d.kind == Declared::Output => Some(d.name.text.as_str()),
+        _ => None,
+    })
 }
 
 /// The names that the statements of a part declare for those who use it.

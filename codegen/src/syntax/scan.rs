@@ -231,6 +231,8 @@ impl Scanner<'_> {
         while depth > 0 {
             let Some(character) = self.next() else {
                 self.readable = false;
+                // It has swallowed what closes them.
+                self.open.clear();
                 let error = Diagnostic::error(begin, "this comment is never closed");
                 self.diagnostics.push(error.help("write the matching `*/`"));
                 return;

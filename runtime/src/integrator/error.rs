@@ -67,7 +67,7 @@ impl<T: Real> Display for IntegrateError<T> {
                 f,
                 "at t = {t} s the tolerance demands a step of {h} s, which is lost in the \
                  round-off of time; allow a larger tolerance, end the run earlier, or look for a \
-                 force that grows without bound",
+                 force or a velocity that grows without bound",
                 t = Number(t),
                 h = Number(h)
             ),

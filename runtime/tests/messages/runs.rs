@@ -164,7 +164,8 @@ pub const MOTIONS: &[Case] = &[
         "a cusp, `(y - 1)^2 = (x - 1)^3`, passed",
         || from(Point::on(cusp), [[1.25, 0.875], [-1.0, 0.75]], rk4()),
         "at t = … s the constraint `g = 0` (line 3) nearly depends on the others, and the branch \
-         of motion turns faster than steps can follow; take a smaller tolerance or step",
+         of motion ends, or turns faster than steps can follow; check that what is prescribed can \
+         be reached, or take a smaller tolerance or step",
     ),
     (
         "Singularity::Touching",
@@ -348,8 +349,8 @@ pub const STEPS: &[Case] = &[
             from(pushed(force), SLIDES, options)
         },
         "at t = … s the tolerance demands a step of … s, which is lost in the round-off of time; \
-         allow a larger tolerance, end the run earlier, or look for a force that grows without \
-         bound",
+         allow a larger tolerance, end the run earlier, or look for a force or a velocity that \
+         grows without bound",
     ),
     (
         "IntegrateError::NotFinite",
