@@ -88,7 +88,7 @@ fn curve(structure: &Structure, columns: &[Column], rows: &[Vec<f64>], place: us
     let coordinate = |i: usize| structure.freedoms().get(i);
     let with_unit = |what: &str, unit: &str, per: &str| match unit {
         "" => what.to_string(),
-        unit => format!("{what} [{unit}{per}]"),
+        unit => format!("{what} [{}{per}]", printed(unit)),
     };
     let linear = |axis, name| Curve {
         axis,
@@ -178,8 +178,17 @@ fn axis(column: Column, structure: &Structure) -> String {
     if unit.is_empty() {
         what
     } else {
-        format!("{what} [{unit}]")
+        format!("{what} [{}]", printed(&unit))
     }
+}
+
+/// A unit as it is printed: `N·m` for `N*m`, `m²` for `m^2`.
+fn printed(unit: &str) -> String {
+    let signs = [("*", "·"), ("^2", "²"), ("^3", "³"), ("^4", "⁴")];
+    let all = signs.iter();
+    all.fold(unit.to_string(), |text, (sign, print)| {
+        text.replace(sign, print)
+    })
 }
 
 /// The name of the output that a component belongs to.

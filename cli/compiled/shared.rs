@@ -97,7 +97,7 @@ impl Shared<'_> {
         }
         say(&format!(
             "compiling what all mechanisms share{}: once for this version of bricard and of \
-             Rust, about 15 s",
+             Rust, about 20 s",
             self.kind
         ));
         let scratch = Scratch::new(version)?;

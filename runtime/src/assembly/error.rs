@@ -91,10 +91,16 @@ impl<T: Real, const N: usize, const R: usize> Display for AssemblyError<T, N, R>
                 conflicting,
             } => contradiction(f, structure, residual.as_slice(), (conflicting, true)),
             Self::NoBranch { structure, held } => {
-                f.write_str(
-                    "the start is a singular position, and no branch of the motion through it \
-                     has the held velocities",
-                )?;
+                f.write_str(match held.contains(&true) {
+                    true => {
+                        "the start is a singular position, and no branch of the motion through \
+                         it has the held velocities"
+                    }
+                    false => {
+                        "constraints depend on one another at the start, and no motion from there \
+                         satisfies all of them"
+                    }
+                })?;
                 advice(f, structure.coordinates, held, true)
             }
             Self::ManyBranches {
