@@ -11,7 +11,7 @@ use crate::error::CommandError;
 use crate::mechanism::find;
 use crate::output::{say, write};
 use crate::plot::{Shape, moving_svg};
-use crate::run::{Plan, RowSink, run};
+use crate::run::{Plan, run};
 use crate::scene::{is_spatial, shapes};
 use bricard_driver::AnyMechanism;
 use bricard_runtime::{Options, Structure};
@@ -24,16 +24,6 @@ const POSES: usize = 180;
 const TOLERANCE: f64 = 1e-9;
 /// Pictures side by side.
 const COLUMNS: usize = 3;
-
-/// Rows that are kept.
-struct Kept(Vec<Vec<f64>>);
-
-impl RowSink for Kept {
-    fn row(&mut self, values: &[f64]) -> Result<(), CommandError> {
-        self.0.push(values.to_vec());
-        Ok(())
-    }
-}
 
 /// Writes the gallery.
 ///
@@ -61,9 +51,9 @@ pub fn gallery(arguments: &Gallery) -> Result<(), CommandError> {
 fn picture(name: &str, mechanism: &dyn AnyMechanism) -> Result<String, CommandError> {
     let options = Options::dop853(SECONDS, TOLERANCE);
     let plan = Plan::new(options, Some(SECONDS / POSES as f64), Vec::new());
-    let mut rows = Kept(Vec::new());
+    let mut rows = Vec::new();
     run(mechanism, &plan, &mut rows).map_err(|stopped| stopped.error)?;
-    let scene = mechanism.scene(&rows.0);
+    let scene = mechanism.scene(&rows);
     let scene = scene.map_err(|reason| CommandError::Draw(name.into(), reason))?;
     let spatial = is_spatial(&scene);
     let frames = scene.frames.iter();

@@ -11,7 +11,7 @@ use crate::error::CommandError;
 use crate::mechanism::{find, precise};
 use crate::number::largest;
 use crate::output::{print, say};
-use crate::run::{Plan, RowSink, run};
+use crate::run::{Plan, run};
 use crate::table::{Align, headed};
 use bricard_driver::{AnyMechanism, Around, Path, Precise};
 use bricard_runtime::{Audit, Method, Options, StepControl};
@@ -137,21 +137,12 @@ fn places(method: Method, step: f64) -> Vec<(f64, f64)> {
 /// When a mechanism first passes a singular position (s).
 fn first_passage(name: &str, mechanism: &dyn AnyMechanism) -> Result<f64, CommandError> {
     let plan = Plan::new(Options::dop853(LOOK, SEARCH), Some(LOOK), Vec::new());
-    let report = run(mechanism, &plan, &mut Nowhere).map_err(|stopped| stopped.error)?;
+    let report = run(mechanism, &plan, &mut Vec::new()).map_err(|stopped| stopped.error)?;
     match report.passages.first() {
         Some(passage) => Ok(passage.t),
         None => Err(failed(format!(
             "`{name}` passes no singular position in {LOOK} s"
         ))),
-    }
-}
-
-/// Takes rows and forgets them.
-struct Nowhere;
-
-impl RowSink for Nowhere {
-    fn row(&mut self, _values: &[f64]) -> Result<(), CommandError> {
-        Ok(())
     }
 }
 

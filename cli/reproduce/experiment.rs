@@ -5,7 +5,7 @@ use crate::column::Column;
 use crate::error::CommandError;
 use crate::mechanism::find;
 use crate::number::largest;
-use crate::run::{Plan, Report, RowSink, Stopped, run};
+use crate::run::{Plan, Report, Stopped, run};
 use bricard_driver::AnyMechanism;
 use bricard_runtime::{Form, Options};
 
@@ -113,12 +113,12 @@ impl Outcome {
 pub fn perform(experiment: &'static Experiment) -> Result<Outcome, CommandError> {
     let mechanism = find(experiment.mechanism)?;
     let plan = plan(experiment, STEP, Form::Reduced);
-    let mut rows = Rows::default();
+    let mut rows = Vec::new();
     let report = run(mechanism.as_ref(), &plan, &mut rows).map_err(|stopped| stopped.error)?;
     Ok(Outcome {
         experiment,
         mechanism,
-        rows: rows.0,
+        rows,
         report,
     })
 }
@@ -140,15 +140,4 @@ pub fn plan(experiment: &Experiment, step: f64, form: Form) -> Plan {
     options.settings.form = form;
     let columns = vec![Column::ConstraintError, Column::VelocityError];
     Plan::new(options, None, columns)
-}
-
-/// Keeps rows in memory.
-#[derive(Debug, Default)]
-pub struct Rows(pub Vec<Vec<f64>>);
-
-impl RowSink for Rows {
-    fn row(&mut self, values: &[f64]) -> Result<(), CommandError> {
-        self.0.push(values.to_vec());
-        Ok(())
-    }
 }

@@ -1,6 +1,6 @@
 //! The forms of the equations of motion, compared.
 
-use super::experiment::{Outcome, Rows, STEP, named, plan};
+use super::experiment::{Outcome, STEP, named, plan};
 use super::report::Findings;
 use crate::error::CommandError;
 use crate::number::largest;
@@ -59,10 +59,10 @@ fn difference(outcome: &Outcome, published: bool) -> Result<f64, CommandError> {
     let rows = |form| {
         let mut plan = plan(outcome.experiment, STEP, form);
         plan.options.settings.published = published;
-        let mut rows = Rows::default();
+        let mut rows = Vec::new();
         run(outcome.mechanism.as_ref(), &plan, &mut rows)
             .map_err(|stopped| named(outcome.experiment, stopped))?;
-        Ok::<_, CommandError>(rows.0)
+        Ok::<_, CommandError>(rows)
     };
     let (full, reduced) = (rows(Form::Full)?, rows(Form::Reduced)?);
     if full.len() != reduced.len() {
@@ -79,7 +79,7 @@ fn difference(outcome: &Outcome, published: bool) -> Result<f64, CommandError> {
 /// a broken promise: it has then passed one without a word.
 fn ending(outcome: &Outcome, form: Form, findings: &mut Findings) -> String {
     let plan = plan(outcome.experiment, STEP, form);
-    match run(outcome.mechanism.as_ref(), &plan, &mut Rows::default()) {
+    match run(outcome.mechanism.as_ref(), &plan, &mut Vec::new()) {
         Err(stopped) => match stopped.time {
             Some(t) => format!("ends at t = {t:.4} s"),
             None => "does not begin".to_string(),

@@ -6,12 +6,12 @@
 //! order is judged over the first second, in which each mechanism passes one or
 //! two singular positions; both are shown.
 
-use super::experiment::{EXPERIMENTS, Experiment, Rows, named, plan};
+use super::experiment::{EXPERIMENTS, Experiment, named, plan};
 use super::report::Findings;
 use crate::error::CommandError;
 use crate::mechanism::find;
 use crate::number::largest;
-use crate::run::run;
+use crate::run::{Plan, run};
 use crate::table::{Align, headed};
 use bricard_runtime::Form;
 
@@ -84,32 +84,25 @@ fn row(title: &str, errors: &[f64], verdict: String) -> Vec<String> {
 
 /// The error of q₁ at the end of an experiment.
 fn at_end(experiment: &'static Experiment, step: f64) -> Result<f64, CommandError> {
-    let mut rows = Rows::default();
-    let plan = plan(experiment, step, Form::Reduced);
-    run(find(experiment.mechanism)?.as_ref(), &plan, &mut rows)
-        .map_err(|stopped| named(experiment, stopped))?;
-    let end = rows
-        .0
-        .last()
-        .and_then(|row| row.get(1))
-        .copied()
-        .unwrap_or(f64::NAN);
+    let angles = angles(experiment, &plan(experiment, step, Form::Reduced))?;
+    let end = angles.last().copied().unwrap_or(f64::NAN);
     Ok((end - experiment.exact.q1).abs())
 }
 
 /// q₁ in the first second, where all steps meet.
 fn first_second(experiment: &'static Experiment, step: f64) -> Result<Vec<f64>, CommandError> {
-    let mut rows = Rows::default();
     let mut plan = plan(experiment, step, Form::Reduced);
     plan.options.until = 1.0;
     plan.every = Some(STEPS[0]);
-    run(find(experiment.mechanism)?.as_ref(), &plan, &mut rows)
+    angles(experiment, &plan)
+}
+
+/// q₁ in each row of a run.
+fn angles(experiment: &Experiment, plan: &Plan) -> Result<Vec<f64>, CommandError> {
+    let mut rows = Vec::new();
+    run(find(experiment.mechanism)?.as_ref(), plan, &mut rows)
         .map_err(|stopped| named(experiment, stopped))?;
-    Ok(rows
-        .0
-        .iter()
-        .filter_map(|row| row.get(1).copied())
-        .collect())
+    Ok(rows.iter().filter_map(|row| row.get(1).copied()).collect())
 }
 
 /// The slope of the straight line through the logarithms, by least squares.

@@ -68,3 +68,11 @@ pub trait RowSink {
         Ok(Rows::default())
     }
 }
+
+/// Rows that are kept in memory.
+impl RowSink for Vec<Vec<f64>> {
+    fn row(&mut self, values: &[f64]) -> Result<(), CommandError> {
+        self.push(values.to_vec());
+        Ok(())
+    }
+}
