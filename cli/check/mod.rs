@@ -8,10 +8,10 @@ mod json;
 
 use crate::arguments::Check;
 use crate::captions::sizes;
-use crate::description::read;
+use crate::description::{read, say_doubts, wrong};
 use crate::error::CommandError;
 use crate::mechanism::names;
-use crate::output::{print, say};
+use crate::output::print;
 use bricard_codegen::internals::diagnostic::{Diagnostic, Position, Span};
 use bricard_codegen::internals::model::Mechanism;
 use bricard_codegen::internals::{NotUtf8, examine};
@@ -35,11 +35,8 @@ pub fn check(arguments: &Check) -> Result<(), CommandError> {
         print(&json::report(&file, &examined))?;
         return examined.map(|_| ()).map_err(|_| CommandError::Said);
     }
-    let (mechanism, warnings) =
-        examined.map_err(|errors| CommandError::Description(errors.render(&file, &source)))?;
-    if !warnings.is_empty() {
-        say(warnings.render(&file, &source).trim_end());
-    }
+    let (mechanism, warnings) = examined.map_err(wrong(&arguments.file, &source))?;
+    say_doubts(&arguments.file, &source, &warnings);
     print(&in_order(&file, &mechanism))
 }
 

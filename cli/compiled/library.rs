@@ -9,6 +9,7 @@ use super::identity;
 use super::settings::settings;
 use super::shared::{boundary, rustc};
 
+use crate::description::{say_doubts, wrong};
 use crate::error::CommandError;
 use crate::output::say;
 use bricard_codegen::internals::emit::module_name;
@@ -117,12 +118,9 @@ pub fn module_of(file: &Path) -> String {
 pub fn generate(file: &Path, source: &str, for_c: bool) -> Result<Compiled, CommandError> {
     let mut settings = settings(file);
     settings.options.c_interface = for_c;
-    let shown = file.display().to_string();
     let compiled = compile_source(source, &module_of(file), &name(file), &settings)
-        .map_err(|errors| CommandError::Description(errors.render(&shown, source)))?;
-    if !compiled.warnings.is_empty() {
-        say(compiled.warnings.render(&shown, source).trim_end());
-    }
+        .map_err(wrong(file, source))?;
+    say_doubts(file, source, &compiled.warnings);
     Ok(compiled)
 }
 

@@ -25,9 +25,8 @@ pub mod sources;
 pub use compiler::{command, output};
 pub use library::{Library, generate, library, module_of};
 
-use crate::description::read;
+use crate::description::{read, say_doubts, wrong};
 use crate::error::CommandError;
-use crate::output::say;
 use bricard_codegen::CompileSettings;
 use bricard_codegen::internals::examine;
 use bricard_driver::{Link, PreciseLink};
@@ -101,13 +100,9 @@ fn program(file: &Path, source: &str, digits: Digits) -> Result<PathBuf, Command
 ///
 /// [`CommandError::Description`].
 fn warn(file: &Path, source: &str) -> Result<(), CommandError> {
-    let shown = file.display().to_string();
     let examined = examine(source, &CompileSettings::beside(file));
-    let (_, warnings) =
-        examined.map_err(|errors| CommandError::Description(errors.render(&shown, source)))?;
-    if !warnings.is_empty() {
-        say(warnings.render(&shown, source).trim_end());
-    }
+    let (_, warnings) = examined.map_err(wrong(file, source))?;
+    say_doubts(file, source, &warnings);
     Ok(())
 }
 

@@ -7,6 +7,7 @@ use super::cache::{Scratch, Version, name};
 use super::compiler::{Toolchain, output};
 use super::settings::settings;
 use super::shared::{rustc, sized};
+use crate::description::wrong;
 use crate::error::CommandError;
 use crate::output::say;
 use bricard_codegen::compile_source;
@@ -32,9 +33,8 @@ impl<'a> Program<'a> {
     ///
     /// [`CommandError::Description`].
     pub fn generate(file: &'a Path, source: &str, identity: &'a str) -> Result<Self, CommandError> {
-        let shown = file.display().to_string();
         let compiled = compile_source(source, MODULE, &name(file), &settings(file))
-            .map_err(|errors| CommandError::Description(errors.render(&shown, source)))?;
+            .map_err(wrong(file, source))?;
         let kind = type_name(&compiled.name);
         let main = format!(
             "fn main() -> std::process::ExitCode {{\n    \

@@ -15,7 +15,7 @@ mod skipped;
 
 use crate::arguments::Show;
 use crate::captions::{first_sentence, freedom, sizes};
-use crate::description::Description;
+use crate::description::{Description, wrong};
 use crate::error::CommandError;
 use crate::mechanism::{description, freedom_at_start};
 use crate::output::print;
@@ -28,19 +28,14 @@ use std::path::Path;
 
 /// Prints the equations of motion.
 pub fn show(arguments: &Show) -> Result<(), CommandError> {
-    let mut subject = Subject::of(&arguments.subject)?;
-    let rendered = |errors: bricard_codegen::Diagnostics| {
-        CommandError::Description(errors.render(&subject.file, &subject.source))
-    };
-    let (mut mechanism, _warnings) = analyse(
-        &subject.source,
-        &CompileSettings::beside(Path::new(&subject.file)),
-    )
-    .map_err(rendered)?;
+    let Description { file, source } = description(&arguments.subject)?;
+    let wrong = wrong(&file, &source);
+    let (mut mechanism, _warnings) =
+        analyse(&source, &CompileSettings::beside(&file)).map_err(&wrong)?;
     if arguments.eliminate {
-        mechanism = derive::eliminate(mechanism).map_err(rendered)?;
+        mechanism = derive::eliminate(mechanism).map_err(&wrong)?;
     }
-    let equations = equations_of_motion(&mut mechanism).map_err(rendered)?;
+    let equations = equations_of_motion(&mut mechanism).map_err(&wrong)?;
     if arguments.programs {
         let programs = programs(&mut mechanism, &equations, Besides::default());
         return print(&listing(&mechanism, &programs));
@@ -49,11 +44,10 @@ pub fn show(arguments: &Show) -> Result<(), CommandError> {
     let programs = programs(&mut mechanism, &equations, Besides::default());
     let costs = cost::costs(&programs);
     let skipped = skipped::skipped(&mechanism, &equations, &programs);
-    if !mechanism.described.is_empty() {
-        // The rank at the start is that of all constraints.
-        subject.start = None;
-    }
-    let heading = heading(&mechanism, &subject);
+    // The rank at the start is that of all constraints.
+    let whole = mechanism.described.is_empty();
+    let start = freedom_at_start(&arguments.subject).filter(|_| whole);
+    let heading = heading(&mechanism, &file, start);
     // The names are the mechanism's, so its graph has to stand apart to be added to.
     let mut graph = std::mem::take(&mut mechanism.graph);
     print(&if arguments.latex {
@@ -103,36 +97,17 @@ pub fn equations(file: &Path, source: &str, most: u64) -> Option<Vec<Array>> {
     Some(all)
 }
 
-/// Whose equations are wanted.
-struct Subject {
-    file: String,
-    source: String,
-    /// Rank of the constraints and number of degrees of freedom at the start, as
-    /// far as it is known.
-    start: Option<String>,
-}
-
-impl Subject {
-    /// The subject of a name of the library or of a path.
-    fn of(name: &str) -> Result<Self, CommandError> {
-        let Description { file, source } = description(name)?;
-        Ok(Self {
-            file: file.display().to_string(),
-            source,
-            start: freedom_at_start(name),
-        })
-    }
-}
-
-fn heading(mechanism: &Mechanism, subject: &Subject) -> String {
+/// Whose equations they are; with the rank of the constraints and the number of degrees of
+/// freedom at the start, as far as they are known.
+fn heading(mechanism: &Mechanism, file: &Path, start: Option<String>) -> String {
     let (n, r) = (mechanism.freedoms(), mechanism.constraints.len());
     let mut lines = vec![
         format!("{}: {}", mechanism.name, first_sentence(&mechanism.docs)),
-        format!("from {}", subject.file),
+        format!("from {}", file.display()),
         sizes(mechanism),
     ];
-    lines.push(match &subject.start {
-        Some(start) => start.clone(),
+    lines.push(match start {
+        Some(start) => start,
         None if r == 0 => freedom(n),
         None => format!(
             "{} if the constraint equations are independent",

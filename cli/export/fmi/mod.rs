@@ -17,7 +17,7 @@ use super::archive::{self, Files};
 use super::c::library_sources;
 use crate::compiled::compiler::{command, output};
 use crate::compiled::{Library, generate, identity, library, module_of};
-use crate::description::Description;
+use crate::description::{Description, wrong};
 use crate::error::CommandError;
 use crate::hash::hash;
 use crate::output::print;
@@ -63,9 +63,8 @@ pub fn export(
 fn files(subject: &Description, version: Version, module: &str) -> Result<Files, CommandError> {
     let Description { file, source } = subject;
     let compiled = generate(file, source, true)?;
-    let shown = file.display().to_string();
-    let (mechanism, _) = analyse(source, &CompileSettings::beside(file))
-        .map_err(|errors| CommandError::Description(errors.render(&shown, source)))?;
+    let (mechanism, _) =
+        analyse(source, &CompileSettings::beside(file)).map_err(wrong(file, source))?;
     let identity = identity(file, source);
     let functions = [INSTANCE, version.functions().1, HEADER];
     let parts = [&*identity, env!("CARGO_PKG_VERSION")];
