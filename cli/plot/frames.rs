@@ -6,7 +6,6 @@ use super::style::{DETAIL, FONT, GHOST, GRID, HEADING, INK, TEXT, colour};
 use super::svg::{Area, Drawn};
 use crate::error::CommandError;
 use plotters::prelude::*;
-use std::fs;
 use std::path::Path;
 
 /// A part of the picture of a mechanism, in metres.
@@ -56,16 +55,6 @@ const BORDER: f64 = 0.08;
 /// What is smaller than this, relative to its place, is drawn as if it were so large
 /// (one at the origin: in metres).
 const SMALLEST: f64 = 1e-9;
-
-/// Draws configurations in one scale, equal in both directions, and writes them.
-///
-/// # Errors
-///
-/// [`CommandError::Draw`] and [`CommandError::Write`].
-pub fn frames(path: &Path, title: &str, frames: &[Frame]) -> Result<(), CommandError> {
-    let text = frames_as_svg(&Sheet::screen(path, title), frames)?;
-    fs::write(path, text).map_err(|error| CommandError::write(path, error))
-}
 
 /// Draws configurations in one scale, equal in both directions.
 ///

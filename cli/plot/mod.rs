@@ -18,9 +18,9 @@ mod style;
 mod svg;
 mod work;
 
-pub use frames::{Frame, Shape, film_as_svg, frames, frames_as_svg};
+pub use frames::{Frame, Shape, film_as_svg, frames_as_svg};
 pub use moving::moving_svg;
-pub use panel::{Marks, Times, panels, panels_as_svg};
+pub use panel::{Marks, Times, panels_as_svg};
 pub use phase::{Portrait, phase_as_svg};
 pub use sheet::Sheet;
 pub use work::{Cloud, Mark, work_diagram};

@@ -8,8 +8,6 @@ use super::svg::{Area, Drawn};
 use super::{Panel, Scale, Sheet};
 use crate::error::CommandError;
 use plotters::prelude::*;
-use std::fs;
-use std::path::Path;
 
 /// Width of a picture (pixels).
 const WIDTH: u32 = 860;
@@ -52,21 +50,6 @@ impl Marks {
     fn are_shown(&self) -> bool {
         self.times.len() <= Self::MOST
     }
-}
-
-/// Draws panels with a common axis of time (s), and writes them.
-///
-/// # Errors
-///
-/// [`CommandError::Draw`] and [`CommandError::Write`].
-pub fn panels(
-    path: &Path,
-    title: &str,
-    times: Times,
-    panels: &[Panel],
-) -> Result<(), CommandError> {
-    let text = panels_as_svg(&Sheet::screen(path, title), times, panels)?;
-    fs::write(path, text).map_err(|error| CommandError::write(path, error))
 }
 
 /// Draws panels with a common axis of time (s).

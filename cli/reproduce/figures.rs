@@ -3,7 +3,8 @@
 use super::experiment::Outcome;
 use crate::error::CommandError;
 use crate::figure::{ERRORS, coordinates, series};
-use crate::plot::{Frame, Marks, Panel, Times, frames, panels};
+use crate::output::write;
+use crate::plot::{Frame, Marks, Panel, Sheet, Times, frames_as_svg, panels_as_svg};
 use crate::scene::shapes;
 use std::path::Path;
 
@@ -51,13 +52,15 @@ pub fn draw(folder: &Path, outcomes: &[Outcome]) -> Result<Vec<String>, CommandE
             values: &times,
             marks: &marks,
         };
-        panels(&path, title, times, &diagrams(outcome))?;
+        let sheet = Sheet::screen(&path, title);
+        write(&path, &panels_as_svg(&sheet, times, &diagrams(outcome))?)?;
         written.push(path.display().to_string());
     }
     if let Some(outcome) = outcomes.last() {
         let path = folder.join("figure_6_configurations.svg");
         let title = "Fig. 6  Double four-bar: configurations in the first second (faint: the 0.15 s before)";
-        frames(&path, title, &configurations(outcome))?;
+        let sheet = Sheet::screen(&path, title);
+        write(&path, &frames_as_svg(&sheet, &configurations(outcome))?)?;
         written.push(path.display().to_string());
     }
     Ok(written)
