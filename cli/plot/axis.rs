@@ -1,17 +1,11 @@
 //! Numbers and places on axes.
 
-use super::style::{DETAIL, FONT, INK, TEXT};
-use super::svg::{Area, Drawn};
+use super::sheet::{Area, Drawn, px};
+use super::style::{DETAIL, level};
 use plotters::coord::ranged1d::{KeyPointHint, NoDefaultFormatting, ValueFormatter};
 use plotters::coord::types::RangedCoordf64;
 use plotters::prelude::*;
-use plotters::style::text_anchor::{HPos, Pos, VPos};
-
-/// A place in pixels of the picture as it is shown.
-pub fn px(x: u32, y: u32) -> (i32, i32) {
-    let scaled = |v: u32| i32::try_from(v * DETAIL).unwrap_or(i32::MAX);
-    (scaled(x), scaled(y))
-}
+use plotters::style::text_anchor::HPos;
 
 /// Width of a vertical axis without its numbers (pixels).
 const BESIDE_NUMBERS: u32 = 36;
@@ -186,12 +180,9 @@ impl Axis {
     }
 
     fn note_at(&self, area: &Area, (place, side): ((i32, i32), HPos)) -> Drawn {
-        let style = TextStyle::from((FONT, TEXT).into_font())
-            .color(&INK)
-            .pos(Pos::new(side, VPos::Center));
         match self.note.as_str() {
             "" => Ok(()),
-            note => area.draw(&Text::new(note.to_string(), place, style)),
+            note => area.draw(&Text::new(note.to_string(), place, level(side))),
         }
     }
 }

@@ -2,8 +2,8 @@
 
 use super::Sheet;
 use super::curve::has_place;
-use super::style::{DETAIL, FONT, GHOST, GRID, HEADING, INK, TEXT, colour};
-use super::svg::{Area, Drawn};
+use super::sheet::{Area, Drawn, px};
+use super::style::{DETAIL, GHOST, GRID, TEXT, colour, letters};
 use crate::error::CommandError;
 use plotters::prelude::*;
 use std::path::Path;
@@ -60,7 +60,7 @@ const SMALLEST: f64 = 1e-9;
 ///
 /// # Errors
 ///
-/// As [`svg::text`](super::svg::text).
+/// As [`Sheet::draw`].
 pub fn frames_as_svg(sheet: &Sheet, frames: &[Frame]) -> Result<String, CommandError> {
     strip(sheet, frames, bounds(frames))
 }
@@ -69,7 +69,7 @@ pub fn frames_as_svg(sheet: &Sheet, frames: &[Frame]) -> Result<String, CommandE
 ///
 /// # Errors
 ///
-/// As [`svg::text`](super::svg::text).
+/// As [`Sheet::draw`].
 pub fn film_as_svg<'a>(
     path: &'a Path,
     title: &'a str,
@@ -98,22 +98,14 @@ fn strip(
         sheet.head() + rows * (CAPTION + picture + 8) + 8,
     );
     sheet.draw(size, |root| {
-        if sheet.head() > 0 {
-            let style = TextStyle::from((FONT, HEADING).into_font()).color(&INK);
-            let head = i32::try_from(12 * DETAIL).unwrap_or(0);
-            let title = sheet.title.to_string();
-            root.draw(&Text::new(title, (head, head * 5 / 6), style))?;
-        }
+        sheet.heading(root, 12)?;
         for (i, frame) in (0u32..).zip(frames) {
             let corner = (
                 12 + (i % columns) * wide,
                 sheet.head() + (i / columns) * (CAPTION + picture + 8),
             );
-            let place = |v: u32| i32::try_from(v * DETAIL).unwrap_or(0);
-            let area = root.clone().shrink(
-                (place(corner.0), place(corner.1)),
-                (wide * DETAIL, (CAPTION + picture) * DETAIL),
-            );
+            let size = (wide * DETAIL, (CAPTION + picture) * DETAIL);
+            let area = root.clone().shrink(px(corner.0, corner.1), size);
             draw(&area, frame, &Projection::new(bounds, (wide, picture)))?;
         }
         Ok(())
@@ -197,12 +189,8 @@ fn draw(area: &Area, frame: &Frame, projection: &Projection) -> Drawn {
         [(0, top), (right, edge(height))],
         GRID.stroke_width(DETAIL),
     ))?;
-    let style = TextStyle::from((FONT, TEXT).into_font()).color(&INK);
-    area.draw(&Text::new(
-        frame.caption.clone(),
-        (0, 6 * edge(DETAIL)),
-        style,
-    ))?;
+    let caption = frame.caption.clone();
+    area.draw(&Text::new(caption, px(0, 6), letters(TEXT)))?;
     for shape in frame.before.iter().flatten().filter(|s| s.has_place()) {
         draw_shape(area, shape, projection, GHOST, 1)?;
     }

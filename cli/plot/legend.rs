@@ -1,10 +1,9 @@
 //! Legends: beside a diagram, or above it where it is narrow, so that they hide nothing.
 
-use super::axis::px;
-use super::style::{DETAIL, FONT, INK, STROKE, TEXT, colour, mark};
-use super::svg::{Area, Drawn};
+use super::sheet::{Area, Drawn, px};
+use super::style::{DETAIL, STROKE, colour, level, mark};
 use plotters::prelude::*;
-use plotters::style::text_anchor::{HPos, Pos, VPos};
+use plotters::style::text_anchor::HPos;
 
 /// Width of a letter (pixels), generously.
 const LETTER: u32 = 9;
@@ -84,10 +83,6 @@ pub fn beside(area: &Area, entries: &[Entry], height: u32) -> Drawn {
 }
 
 fn explain(area: &Area, entry: &Entry, (x, y): (u32, u32)) -> Drawn {
-    let anchor = Pos::new(HPos::Left, VPos::Center);
-    let style = TextStyle::from((FONT, TEXT).into_font())
-        .color(&INK)
-        .pos(anchor);
     let sample = match entry.kind {
         Kind::Curve(place) => PathElement::new(
             vec![px(x, y), px(x + 24, y)],
@@ -99,7 +94,8 @@ fn explain(area: &Area, entry: &Entry, (x, y): (u32, u32)) -> Drawn {
         ),
     };
     area.draw(&sample)?;
-    area.draw(&Text::new(entry.name.clone(), px(x + 32, y), style))
+    let name = entry.name.clone();
+    area.draw(&Text::new(name, px(x + 32, y), level(HPos::Left)))
 }
 
 #[cfg(test)]

@@ -15,7 +15,6 @@ mod panel;
 mod phase;
 mod sheet;
 mod style;
-mod svg;
 mod work;
 
 pub use frames::{Frame, Shape, film_as_svg, frames_as_svg};

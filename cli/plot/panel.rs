@@ -1,10 +1,10 @@
 //! Panels of curves over time, one below the other.
 
-use super::axis::{Axis, power_of_ten, px};
+use super::axis::{Axis, power_of_ten};
 use super::curve::{Curve, curves, has_place};
 use super::legend::{self, Entry, Kind};
-use super::style::{DETAIL, DOT, FONT, GRID, HEADING, INK, STROKE, TEXT, colour, mark};
-use super::svg::{Area, Drawn};
+use super::sheet::{Area, Drawn};
+use super::style::{DETAIL, DOT, GRID, INK, STROKE, TEXT, colour, letters, mark};
 use super::{Panel, Scale, Sheet};
 use crate::error::CommandError;
 use plotters::prelude::*;
@@ -56,7 +56,7 @@ impl Marks {
 ///
 /// # Errors
 ///
-/// As [`svg::text`](super::svg::text).
+/// As [`Sheet::draw`].
 pub fn panels_as_svg(
     sheet: &Sheet,
     times: Times,
@@ -93,10 +93,8 @@ pub fn panels_as_svg(
     let height = sheet.head() + PANEL * count + heads.iter().sum::<u32>() + TIME_AXIS;
     let time = axis_of_time(times.values, inside - MARGINS.0 - MARGINS.1);
     sheet.draw((width.unwrap_or(WIDTH + beside), height), |root| {
-        let (head, mut rest) = root.split_vertically(sheet.head() * DETAIL);
-        if sheet.head() > 0 {
-            heading(&head, sheet.title, labels)?;
-        }
+        sheet.heading(root, labels)?;
+        let (_, mut rest) = root.split_vertically(sheet.head() * DETAIL);
         for (i, (panel, (curves, _))) in panels.iter().zip(&prepared).enumerate() {
             let last = i + 1 == panels.len();
             let (above, below) = rest.split_vertically(heads[i] * DETAIL);
@@ -165,11 +163,6 @@ fn entries(curves: &[Curve], happens: &[&Marks]) -> Vec<Entry> {
     curves.iter().map(curve).chain(marks).collect()
 }
 
-fn heading(area: &Area, title: &str, left: u32) -> Drawn {
-    let style = TextStyle::from((FONT, HEADING).into_font()).color(&INK);
-    area.draw(&Text::new(title.to_string(), px(left, 10), style))
-}
-
 type Range = (f64, f64);
 
 fn diagram(
@@ -189,15 +182,14 @@ fn diagram(
         .set_label_area_size(LabelAreaPosition::Left, labels * DETAIL)
         .set_label_area_size(LabelAreaPosition::Bottom, below * DETAIL)
         .build_cartesian_2d(time.clone(), axis.clone())?;
-    let text = TextStyle::from((FONT, TEXT).into_font()).color(&INK);
     chart
         .configure_mesh()
         .disable_x_mesh()
         .max_light_lines(0)
         .bold_line_style(GRID.stroke_width(DETAIL))
         .axis_style(INK.stroke_width(DETAIL))
-        .label_style(text.clone())
-        .axis_desc_style(text)
+        .label_style(letters(TEXT))
+        .axis_desc_style(letters(TEXT))
         .set_tick_mark_size(LabelAreaPosition::Left, 5 * DETAIL)
         .set_tick_mark_size(LabelAreaPosition::Bottom, 5 * DETAIL)
         .y_desc(panel.axis.as_str())

@@ -1,10 +1,10 @@
 //! One quantity over another: a phase portrait.
 
 use super::Sheet;
-use super::axis::{Axis, px};
+use super::axis::Axis;
 use super::curve::has_place;
 use super::legend::{self, Entry, Kind};
-use super::style::{DETAIL, FONT, GRID, HEADING, INK, STROKE, TEXT, colour};
+use super::style::{DETAIL, GRID, INK, STROKE, TEXT, colour, letters};
 use crate::error::CommandError;
 use plotters::prelude::*;
 
@@ -32,7 +32,7 @@ pub struct Portrait {
 ///
 /// # Errors
 ///
-/// As [`svg::text`](super::svg::text).
+/// As [`Sheet::draw`].
 pub fn phase_as_svg(
     sheet: &Sheet,
     [across, up]: [&str; 2],
@@ -52,13 +52,9 @@ pub fn phase_as_svg(
     let above = legend::height(&legend, width - labels);
     let height = width * SIZE.1 / SIZE.0 + sheet.head() + above;
     sheet.draw((width, height), |root| {
+        sheet.heading(root, labels)?;
         let (head, rest) = root.split_vertically((sheet.head() + above) * DETAIL);
-        let style = |size| TextStyle::from((FONT, size).into_font()).color(&INK);
-        let (title, explained) = head.split_vertically(sheet.head() * DETAIL);
-        if sheet.head() > 0 {
-            let heading = sheet.title.to_string();
-            title.draw(&Text::new(heading, px(labels, 10), style(HEADING)))?;
-        }
+        let (_, explained) = head.split_vertically(sheet.head() * DETAIL);
         legend::above(&explained, &legend, labels, width - labels)?;
         let mut chart = ChartBuilder::on(&rest)
             .margin(EDGE * DETAIL)
@@ -71,8 +67,8 @@ pub fn phase_as_svg(
             .max_light_lines(0)
             .bold_line_style(GRID.stroke_width(DETAIL))
             .axis_style(INK.stroke_width(DETAIL))
-            .label_style(style(TEXT))
-            .axis_desc_style(style(TEXT))
+            .label_style(letters(TEXT))
+            .axis_desc_style(letters(TEXT))
             .x_desc(across)
             .y_desc(up)
             .draw()?;

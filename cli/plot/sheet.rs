@@ -1,8 +1,21 @@
 //! What a picture is drawn on: a screen, or the column of a journal.
 
-use super::svg::{self, Area, Drawn};
+use super::style::{DETAIL, HEADING, letters};
 use crate::error::CommandError;
+use plotters::coord::Shift;
+use plotters::prelude::*;
 use std::path::Path;
+
+/// What drawing on the SVG backend can come to.
+pub type Drawn = Result<(), DrawingAreaErrorKind<std::io::Error>>;
+/// A part of a picture.
+pub type Area<'a> = DrawingArea<SVGBackend<'a>, Shift>;
+
+/// A place in pixels of the picture as it is shown.
+pub fn px(x: u32, y: u32) -> (i32, i32) {
+    let scaled = |v: u32| i32::try_from(v * DETAIL).unwrap_or(i32::MAX);
+    (scaled(x), scaled(y))
+}
 
 /// Letters are 15 pixels high, and 8 points (2.82 mm) in print.
 const PER_MILLIMETRE: f64 = 15.0 / 2.82;
@@ -50,25 +63,48 @@ impl<'a> Sheet<'a> {
         }
     }
 
-    /// Draws a picture of a size (pixels).
+    /// Draws the title, if there is one, at a distance from the left (pixels).
     ///
     /// # Errors
     ///
-    /// As [`svg::text`].
+    /// As drawing has them.
+    pub fn heading(&self, area: &Area, left: u32) -> Drawn {
+        match self.width {
+            Some(_) => Ok(()),
+            None => {
+                let title = self.title.to_string();
+                area.draw(&Text::new(title, px(left, 10), letters(HEADING)))
+            }
+        }
+    }
+
+    /// Draws a picture of a size (pixels) to the text of an SVG file.
+    ///
+    /// # Errors
+    ///
+    /// [`CommandError::Draw`].
     pub fn draw(
         &self,
-        size: (u32, u32),
+        (width, height): (u32, u32),
         draw: impl FnOnce(&Area) -> Drawn,
     ) -> Result<String, CommandError> {
-        let text = svg::text(self.path, size, draw)?;
-        Ok(match self.width {
-            Some(width) => {
-                let height = width * f64::from(size.1) / f64::from(size.0);
-                let shown = format!("width=\"{}\" height=\"{}\"", size.0, size.1);
-                let printed = format!("width=\"{width}mm\" height=\"{height:.3}mm\"");
-                text.replacen(&shown, &printed, 1)
+        let (across, up) = (width * DETAIL, height * DETAIL);
+        let mut text = String::new();
+        let root = SVGBackend::with_string(&mut text, (across, up)).into_drawing_area();
+        let drawn = root
+            .fill(&WHITE)
+            .and_then(|()| draw(&root))
+            .and_then(|()| root.present());
+        drop(root);
+        drawn.map_err(|error| CommandError::Draw(self.path.to_path_buf(), error.to_string()))?;
+        let shown = match self.width {
+            Some(printed) => {
+                let height = printed * f64::from(height) / f64::from(width);
+                format!("width=\"{printed}mm\" height=\"{height:.3}mm\"")
             }
-            None => text,
-        })
+            None => format!("width=\"{width}\" height=\"{height}\""),
+        };
+        let drawn = format!("width=\"{across}\" height=\"{up}\"");
+        Ok(text.replacen(&drawn, &shown, 1))
     }
 }

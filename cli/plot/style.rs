@@ -1,6 +1,7 @@
 //! Sizes and colours of all pictures.
 
-use plotters::prelude::RGBColor;
+use plotters::prelude::{IntoFont, RGBColor, TextStyle};
+use plotters::style::text_anchor::{HPos, Pos, VPos};
 
 /// Pictures are drawn this many times as large and shown reduced, because the
 /// drawing library places points on whole pixels.
@@ -14,7 +15,7 @@ pub const STROKE: u32 = 6;
 /// Radius of points.
 pub const DOT: u32 = 4;
 /// The family of all text.
-pub const FONT: &str = "sans-serif";
+const FONT: &str = "sans-serif";
 /// Text and axes.
 pub const INK: RGBColor = RGBColor(38, 38, 38);
 /// Lines of the grid.
@@ -41,6 +42,16 @@ const COLOURS: [RGBColor; 7] = [
     RGBColor(86, 180, 233),
     RGBColor(90, 90, 90),
 ];
+
+/// Text of a size, whose upper left corner is at its place.
+pub fn letters(size: u32) -> TextStyle<'static> {
+    TextStyle::from((FONT, size).into_font()).color(&INK)
+}
+
+/// Plain text, which has its place at the middle of one of its sides.
+pub fn level(side: HPos) -> TextStyle<'static> {
+    letters(TEXT).pos(Pos::new(side, VPos::Center))
+}
 
 /// The colour of marks of a kind.
 pub fn mark(kind: usize) -> RGBColor {

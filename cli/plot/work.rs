@@ -1,19 +1,17 @@
 //! Work-precision diagrams: time over error, both by powers of ten.
 
-use super::axis::{power_of_ten, px};
-use super::style::{DETAIL, FONT, GRID, HEADING, INK, STROKE, TEXT, colour};
-use super::svg::{self, Area, Drawn};
+use super::axis::power_of_ten;
+use super::sheet::{Area, Drawn, Sheet, px};
+use super::style::{DETAIL, GRID, INK, STROKE, TEXT, colour, letters, level};
 use crate::error::CommandError;
 use plotters::prelude::*;
-use plotters::style::text_anchor::{HPos, Pos, VPos};
+use plotters::style::text_anchor::HPos;
 use std::path::Path;
 
 /// Size of the diagram (pixels).
 const SIZE: (u32, u32) = (700, 520);
 /// Width of the legend (pixels).
 const LEGEND: u32 = 210;
-/// Height of the title (pixels).
-const TITLE: u32 = 36;
 /// Distance of the lines of the legend (pixels).
 const LINE: u32 = 20;
 /// Radius of a mark.
@@ -47,17 +45,32 @@ pub enum Mark {
     Triangle,
 }
 
+impl Cloud {
+    /// How its points are painted.
+    fn paint(&self) -> ShapeStyle {
+        let ink = colour(self.colour);
+        match self.mark {
+            Mark::Disc | Mark::Triangle => ink.filled(),
+            Mark::Ring | Mark::Cross => ink.stroke_width(STROKE),
+        }
+    }
+
+    /// How they are joined.
+    fn line(&self) -> ShapeStyle {
+        colour(self.colour).mix(0.55).stroke_width(STROKE)
+    }
+}
+
 /// Draws time (s) over error; `path` is where it will go, for messages.
 ///
 /// # Errors
 ///
-/// As [`svg::text`].
+/// As [`Sheet::draw`].
 pub fn work_diagram(path: &Path, title: &str, clouds: &[Cloud]) -> Result<String, CommandError> {
-    let size = (SIZE.0 + LEGEND, SIZE.1 + TITLE);
-    svg::text(path, size, |root| {
-        let (head, rest) = root.split_vertically(TITLE * DETAIL);
-        let style = TextStyle::from((FONT, HEADING).into_font()).color(&INK);
-        head.draw(&Text::new(title.to_string(), px(86, 10), style))?;
+    let sheet = Sheet::screen(path, title);
+    sheet.draw((SIZE.0 + LEGEND, SIZE.1 + sheet.head()), |root| {
+        sheet.heading(root, 86)?;
+        let (_, rest) = root.split_vertically(sheet.head() * DETAIL);
         let (left, right) = rest.split_horizontally(SIZE.0 * DETAIL);
         diagram(&left, clouds)?;
         legend(&right, clouds)
@@ -92,7 +105,6 @@ fn diagram(area: &Area, clouds: &[Cloud]) -> Drawn {
     let times = range(placed.iter().flatten().map(|point| point.1));
     let ticks = |range: &std::ops::Range<f64>| (range.end - range.start) as usize + 1;
     let (across, up) = (ticks(&errors), ticks(&times));
-    let text = TextStyle::from((FONT, TEXT).into_font()).color(&INK);
     let mut chart = ChartBuilder::on(area)
         .margin_top(8 * DETAIL)
         .margin_right(14 * DETAIL)
@@ -106,8 +118,8 @@ fn diagram(area: &Area, clouds: &[Cloud]) -> Drawn {
         .max_light_lines(0)
         .bold_line_style(GRID.stroke_width(DETAIL))
         .axis_style(INK.stroke_width(DETAIL))
-        .label_style(text.clone())
-        .axis_desc_style(text)
+        .label_style(letters(TEXT))
+        .axis_desc_style(letters(TEXT))
         .set_all_tick_mark_size(5 * DETAIL)
         .x_labels(across)
         .y_labels(up)
@@ -117,55 +129,33 @@ fn diagram(area: &Area, clouds: &[Cloud]) -> Drawn {
         .y_label_formatter(&|y| power_of_ten(*y))
         .draw()?;
     for (cloud, points) in clouds.iter().zip(&placed) {
-        let line = colour(cloud.colour).mix(0.55).stroke_width(STROKE);
-        chart.draw_series(LineSeries::new(points.iter().copied(), line))?;
-        let paint = colour(cloud.colour);
+        chart.draw_series(LineSeries::new(points.iter().copied(), cloud.line()))?;
+        let (paint, points) = (cloud.paint(), points.iter().copied());
         match cloud.mark {
-            Mark::Disc => chart.draw_series(
-                points
-                    .iter()
-                    .map(|at| Circle::new(*at, RADIUS, paint.filled())),
-            )?,
-            Mark::Ring => chart.draw_series(
-                points
-                    .iter()
-                    .map(|at| Circle::new(*at, RADIUS, paint.stroke_width(STROKE))),
-            )?,
-            Mark::Cross => chart.draw_series(
-                points
-                    .iter()
-                    .map(|at| Cross::new(*at, RADIUS, paint.stroke_width(STROKE))),
-            )?,
-            Mark::Triangle => chart.draw_series(
-                points
-                    .iter()
-                    .map(|at| TriangleMarker::new(*at, RADIUS, paint.filled())),
-            )?,
+            Mark::Disc | Mark::Ring => {
+                chart.draw_series(points.map(|at| Circle::new(at, RADIUS, paint)))?
+            }
+            Mark::Cross => chart.draw_series(points.map(|at| Cross::new(at, RADIUS, paint)))?,
+            Mark::Triangle => {
+                chart.draw_series(points.map(|at| TriangleMarker::new(at, RADIUS, paint)))?
+            }
         };
     }
     Ok(())
 }
 
 fn legend(area: &Area, clouds: &[Cloud]) -> Drawn {
-    let anchor = Pos::new(HPos::Left, VPos::Center);
-    let style = TextStyle::from((FONT, TEXT).into_font())
-        .color(&INK)
-        .pos(anchor);
     for (i, cloud) in (0u32..).zip(clouds) {
         let y = 22 + LINE * i;
-        let paint = colour(cloud.colour);
-        let at = px(20, y);
-        area.draw(&PathElement::new(
-            vec![px(6, y), px(34, y)],
-            paint.mix(0.55).stroke_width(STROKE),
-        ))?;
+        let (at, paint, line) = (px(20, y), cloud.paint(), cloud.line());
+        area.draw(&PathElement::new(vec![px(6, y), px(34, y)], line))?;
         match cloud.mark {
-            Mark::Disc => area.draw(&Circle::new(at, RADIUS, paint.filled()))?,
-            Mark::Ring => area.draw(&Circle::new(at, RADIUS, paint.stroke_width(STROKE)))?,
-            Mark::Cross => area.draw(&Cross::new(at, RADIUS, paint.stroke_width(STROKE)))?,
-            Mark::Triangle => area.draw(&TriangleMarker::new(at, RADIUS, paint.filled()))?,
+            Mark::Disc | Mark::Ring => area.draw(&Circle::new(at, RADIUS, paint))?,
+            Mark::Cross => area.draw(&Cross::new(at, RADIUS, paint))?,
+            Mark::Triangle => area.draw(&TriangleMarker::new(at, RADIUS, paint))?,
         }
-        area.draw(&Text::new(cloud.name.clone(), px(42, y), style.clone()))?;
+        let name = cloud.name.clone();
+        area.draw(&Text::new(name, px(42, y), level(HPos::Left)))?;
     }
     Ok(())
 }
