@@ -4,6 +4,7 @@
 //! Out: a function that runs it for one unit acceleration after the other, for those that
 //!      hand out `M`.
 
+use super::function::Decided;
 use super::index::Target;
 use super::repeated::Repeated;
 use super::subject::{Subject, argument, doc_lines};
@@ -22,8 +23,8 @@ angles, kg·m for one of each.";
 pub(super) fn columns(subject: &Subject) -> Option<TokenStream> {
     let Optimised { program, cost, .. } = subject.programs.inertia.as_ref()?;
     let is_acceleration = |symbol: &Symbol| matches!(symbol, Symbol::Acceleration(_));
-    let (names, taken) = (&subject.names, subject.names.taken.clone());
-    let Repeated { once, again } = Repeated::of(program, names, taken, &place, &is_acceleration);
+    let words = subject.words(Decided::ByState);
+    let Repeated { once, again } = Repeated::of(program, words, &place, &is_acceleration);
     let state = argument("state", SymbolNames::reads_state(program));
     let docs = doc_lines(MASS);
     let cost = format!(" Costs {cost} for each column.");

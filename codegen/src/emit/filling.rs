@@ -35,7 +35,6 @@ pub(super) struct Method {
 impl Method {
     /// The method that runs a program.
     pub fn of(subject: &Subject, heading: &Heading, program: &Program, place: Place) -> Self {
-        let names = &subject.names;
         let straight_line = subject.options.straight_line.unwrap_or(STRAIGHT_LINE);
         let decided = Decided::BySides;
         let loops = subject.loops(program, decided, Called::InSteps);
@@ -49,9 +48,8 @@ impl Method {
         let (statements, functions) = match loops {
             Some(loops) => (loops.statements(place), TokenStream::new()),
             None if in_parts => {
-                let (taken, function) = (names.taken.clone(), (&name, &types));
-                let place = (place, decided);
-                let parts = Parts::of(program, names, taken, place, function, straight_line);
+                let (words, function) = (subject.words(decided), (&name, &types));
+                let parts = Parts::of(program, words, place, function, straight_line);
                 (parts.calls, parts.functions)
             }
             None => {

@@ -71,6 +71,15 @@ pub(super) trait Symbols {
     fn input(&self, index: u32, law: TokenStream) -> TokenStream;
 }
 
+/// In which words a function is written.
+#[derive(Clone)]
+pub(super) struct Words<'a> {
+    pub symbols: &'a dyn Symbols,
+    /// The names that are taken.
+    pub names: Names,
+    pub decided: Decided,
+}
+
 /// The body of a function.
 pub(super) struct Body {
     /// The statements.
@@ -93,19 +102,13 @@ impl Body {
         }
     }
 
-    /// Writes a program; `names` are the names that are taken.
-    pub fn of(
-        program: &Program,
-        symbols: &dyn Symbols,
-        names: Names,
-        place: Place,
-        decided: Decided,
-    ) -> Self {
-        let mut writer = Writer::of(program, symbols, names, decided);
+    /// Writes a program.
+    pub fn of(program: &Program, words: Words, place: Place) -> Self {
+        let mut writer = Writer::of(program, words);
         let bound = writer.place_angles();
         // Bound after the call for the angles, symbols need not be kept during it.
         let rest = &writer.symbols_read() - &bound;
-        writer.statements.push(symbols.prelude(&rest));
+        writer.statements.push(writer.symbols.prelude(&rest));
         let slots = program.slots();
         let mut outputs = FxHashMap::default();
         for (value, _) in program.operations() {
@@ -133,12 +136,12 @@ pub(super) struct Writer<'a> {
 }
 
 impl<'a> Writer<'a> {
-    pub(super) fn of(
-        program: &'a Program,
-        symbols: &'a dyn Symbols,
-        names: Names,
-        decided: Decided,
-    ) -> Self {
+    pub(super) fn of(program: &'a Program, words: Words<'a>) -> Self {
+        let Words {
+            symbols,
+            names,
+            decided,
+        } = words;
         Writer {
             program,
             symbols,

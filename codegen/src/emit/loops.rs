@@ -8,9 +8,8 @@
 //! does not fit into their first cache.
 
 use super::column::Columns;
-use super::function::{Decided, Place, Symbols};
+use super::function::{Place, Symbols, Words};
 use super::index::{Index, Target, turn};
-use super::name::Names;
 use super::numbers::{Tabulated, WithTable};
 use super::statements::Statements;
 use super::step::{Angles, Reference, Step, Steps};
@@ -42,37 +41,29 @@ pub(super) struct Loops<'a> {
 }
 
 impl<'a> Loops<'a> {
-    /// A program with its loops, if they make it much shorter; `names` are the names that are
-    /// taken.
-    pub fn of(
-        program: &Program,
-        symbols: &'a dyn Symbols,
-        names: Names,
-        decided: Decided,
-    ) -> Option<Self> {
-        let plain = Self::with(program, (symbols, Vec::new()), names.clone(), decided);
+    /// A program with its loops, if they make it much shorter.
+    pub fn of(program: &Program, words: Words<'a>) -> Option<Self> {
+        let plain = Self::with(program, words.clone(), Vec::new());
         let left = plain.found.left();
         let tabulated = match left > LEFT_MANY {
-            true => Tabulated::of(program, symbols, names.clone(), decided),
+            true => Tabulated::of(program, words.clone()),
             false => None,
         };
-        let tabulated = tabulated.map(|Tabulated { program, numbers }| {
-            Self::with(&program, (symbols, numbers), names, decided)
-        });
+        let tabulated =
+            tabulated.map(|Tabulated { program, numbers }| Self::with(&program, words, numbers));
         let shorter = |other: &Self| 4 * other.found.left() <= OF_FOUR * left;
         let best = tabulated.filter(shorter).unwrap_or(plain);
         let (left, all) = (best.found.left(), best.steps.list.len());
         (4 * left <= OF_FOUR * all && left <= LEFT_MAX).then_some(best)
     }
 
-    fn with(
-        program: &Program,
-        (symbols, numbers): (&'a dyn Symbols, Vec<Number>),
-        mut names: Names,
-        decided: Decided,
-    ) -> Self {
-        let symbols = WithTable::of(symbols, numbers, &mut names);
-        let steps = Steps::of(program, &symbols, names, decided);
+    fn with(program: &Program, mut words: Words<'a>, numbers: Vec<Number>) -> Self {
+        let symbols = WithTable::of(words.symbols, numbers, &mut words.names);
+        let words = Words {
+            symbols: &symbols,
+            ..words
+        };
+        let steps = Steps::of(program, words);
         let found = Found::of(&steps);
         Self {
             symbols,

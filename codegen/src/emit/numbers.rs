@@ -6,7 +6,7 @@
 //! The weights of the bodies behind each joint of a chain, for example, are numbers of which no
 //! two are equal.
 
-use super::function::{Decided, Symbols};
+use super::function::{Symbols, Words};
 use super::index::Index;
 use super::literal::{number, parts};
 use super::name::Names;
@@ -33,13 +33,8 @@ type Use = (Value, usize);
 impl Tabulated {
     /// The program with a table of the numbers that differ between turns of loops; `None` where
     /// none do.
-    pub fn of(
-        program: &Program,
-        symbols: &dyn Symbols,
-        names: Names,
-        decided: Decided,
-    ) -> Option<Self> {
-        let steps = Steps::alike_but_for_numbers(program, symbols, names, decided);
+    pub fn of(program: &Program, words: Words) -> Option<Self> {
+        let steps = Steps::alike_but_for_numbers(program, words);
         let mut table = Table::default();
         for block in Found::of(&steps).blocks {
             if let Block::Loop(repeated) = block {

@@ -8,8 +8,7 @@
 //! What a compiler needs for a straight line grows faster than the line: vectorising, keeping
 //! values in registers and scheduling look at all of a block, again and again.
 
-use super::function::{Decided, Place, Symbols};
-use super::name::Names;
+use super::function::{Place, Symbols, Words};
 use super::step::{Angles, Step, Steps};
 use super::subject::argument;
 use crate::model::Symbol;
@@ -36,22 +35,22 @@ pub(super) struct Parts {
 }
 
 impl Parts {
-    /// Writes a program; `names` are the names that are taken. The function that is taken
-    /// apart has a name, and takes a `state` and a buffer `out`.
+    /// Writes a program. The function that is taken apart has a name, and takes a `state` and a
+    /// buffer `out`.
     pub fn of(
         program: &Program,
-        symbols: &dyn Symbols,
-        names: Names,
-        (place, decided): (Place, Decided),
+        words: Words,
+        place: Place,
         (name, [state_type, out_type]): (&Ident, &[TokenStream; 2]),
         straight_line: usize,
     ) -> Self {
+        let symbols = words.symbols;
         let Steps {
             angles,
             list,
             definitions,
             ..
-        } = Steps::of(program, symbols, names, decided);
+        } = Steps::of(program, words);
         let parts = parts(list, STATEMENTS.min(straight_line / 4));
         let kept = Kept::between(angles.as_ref(), &parts, &definitions);
         let angles = angles.map(|angles| PartBody::of_angles(angles, &kept));

@@ -3,8 +3,7 @@
 //! In:  a program, and which of its symbols change from one run to the next.
 //! Out: the statements that are the same in all runs, and those that are not.
 
-use super::function::{Decided, Place, Symbols, Writer};
-use super::name::Names;
+use super::function::{Place, Words, Writer};
 use crate::model::Symbol;
 use crate::optimise::{Operation, Program, Value};
 use proc_macro2::TokenStream;
@@ -19,11 +18,10 @@ pub(super) struct Repeated {
 }
 
 impl Repeated {
-    /// Writes a program; `names` are the names that are taken.
+    /// Writes a program.
     pub fn of(
         program: &Program,
-        symbols: &dyn Symbols,
-        names: Names,
+        words: Words,
         place: Place,
         changes: &dyn Fn(&Symbol) -> bool,
     ) -> Self {
@@ -31,7 +29,8 @@ impl Repeated {
         let values = program.operations().map(|(value, _)| value);
         let (again, once): (Vec<Value>, Vec<Value>) =
             values.partition(|value| changing[value.index()]);
-        let mut writer = Writer::of(program, symbols, names, Decided::ByState);
+        let symbols = words.symbols;
+        let mut writer = Writer::of(program, words);
         let bound = writer.place_angles();
         let rest = &writer.symbols_read() - &bound;
         let (last, first): (BTreeSet<Symbol>, BTreeSet<Symbol>) =

@@ -4,7 +4,7 @@
 //! Out: its [`Step`]s: the statements for one value each, what they read and define, and the
 //!      form that they have in common with the statements for other values.
 
-use super::function::{Decided, Symbols, Writer};
+use super::function::{Words, Writer};
 use super::name::Names;
 use super::statements::Statements;
 use crate::expr::{Function, Function2, Number, Test};
@@ -103,33 +103,22 @@ enum Mark {
 }
 
 impl Steps {
-    /// The steps of a program; `names` are the names that are taken.
-    pub fn of(program: &Program, symbols: &dyn Symbols, names: Names, decided: Decided) -> Self {
-        Self::read_by(Reader::default(), program, symbols, names, decided)
+    /// The steps of a program.
+    pub fn of(program: &Program, words: Words) -> Self {
+        Self::read_by(Reader::default(), program, words)
     }
 
     /// The same, where steps that differ in numbers are of one form, and refer to the numbers.
-    pub fn alike_but_for_numbers(
-        program: &Program,
-        symbols: &dyn Symbols,
-        names: Names,
-        decided: Decided,
-    ) -> Self {
+    pub fn alike_but_for_numbers(program: &Program, words: Words) -> Self {
         let reader = Reader {
             refers_to_numbers: true,
             ..Reader::default()
         };
-        Self::read_by(reader, program, symbols, names, decided)
+        Self::read_by(reader, program, words)
     }
 
-    fn read_by(
-        mut reader: Reader,
-        program: &Program,
-        symbols: &dyn Symbols,
-        names: Names,
-        decided: Decided,
-    ) -> Self {
-        let mut writer = Writer::of(program, symbols, names, decided);
+    fn read_by(mut reader: Reader, program: &Program, words: Words) -> Self {
+        let mut writer = Writer::of(program, words);
         let angles = writer.angles_together(true).map(|together| {
             let pairs = together.pairs.into_iter();
             let pairs = pairs.map(|(sin, cos)| [sin, cos].map(|name| reader.define(name)));

@@ -1,7 +1,7 @@
 //! The static description of a mechanism, and the structs of its parameters and
 //! inputs.
 
-use super::function::{Body, Decided};
+use super::function::Decided;
 use super::quantity::{constraint_row, quantity};
 use super::subject::{Subject, doc_lines};
 use super::{described, name};
@@ -152,8 +152,7 @@ pub(super) fn parameters(subject: &Subject) -> TokenStream {
 
 /// A default value: an expression, or a block where it takes statements.
 fn default(subject: &Subject, program: &Program) -> TokenStream {
-    let taken = subject.names.taken.clone();
-    let body = Body::of(program, &subject.names, taken, &|_| None, Decided::ByState);
+    let body = subject.straight(program, &|_| None, Decided::ByState);
     let value = body.output(Slot::of_vector("default", 0));
     match &body.statements {
         none if none.is_empty() => value,

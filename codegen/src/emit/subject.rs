@@ -1,6 +1,6 @@
 //! What the emitter looks at, and what all parts of a module are written with.
 
-use super::function::{Body, Decided, Place};
+use super::function::{Body, Decided, Place, Words};
 use super::index::{Index, Target};
 use super::loops::Loops;
 use super::name::type_name;
@@ -169,8 +169,16 @@ impl Subject<'_> {
 
     /// A body without loops.
     pub fn straight(&self, program: &Program, place: Place, decided: Decided) -> Body {
-        let taken = self.names.taken.clone();
-        Body::of(program, &self.names, taken, place, decided)
+        Body::of(program, self.words(decided), place)
+    }
+
+    /// The words of its functions.
+    pub fn words(&self, decided: Decided) -> Words<'_> {
+        Words {
+            symbols: &self.names,
+            names: self.names.taken.clone(),
+            decided,
+        }
     }
 
     fn with_arguments(&self, computed: &Optimised, body: Body) -> Written {
@@ -191,11 +199,7 @@ impl Subject<'_> {
             Called::InSteps => unrolled,
             Called::OnRequest => unrolled.min(UNROLLED_ON_REQUEST),
         };
-        if length <= straight {
-            return None;
-        }
-        let taken = self.names.taken.clone();
-        Loops::of(program, &self.names, taken, decided)
+        (length > straight).then(|| Loops::of(program, self.words(decided)))?
     }
 }
 
