@@ -1,7 +1,7 @@
 //! Functions by name.
 
 use super::evaluate::Evaluator;
-use super::language::{ELSEWHERE, JUMPING, OTHERS, REACTION, other_functions};
+use super::language::{JUMPING, OTHERS, REACTION, from_elsewhere, other_functions};
 use super::linear::transposed;
 use super::messages::{count, takes_others};
 use super::scope::Kind;
@@ -283,7 +283,7 @@ impl Evaluator {
             format!("an element is written `{text}[0]`")
         } else if self.scope.get(text).is_some() || text == "t" || text == "pi" {
             format!("`{text}` is no function; a product is written `{text}*(…)`")
-        } else if let Some((_, form)) = ELSEWHERE.iter().find(|(other, _)| *other == text) {
+        } else if let Some(form) = from_elsewhere(text) {
             format!("write `{form}`")
         } else if JUMPING.contains(&text) {
             "steps are written with `if` or as a `table`, what is periodic with `sin` and `cos`"

@@ -23,52 +23,40 @@ pub const OTHERS: [(&str, usize, &str); 17] = [
     ("spline", 2, "spline([[0, 1], [2, 3]], x)"),
 ];
 
-/// Names that other languages have for the same.
-pub const ELSEWHERE: [(&str, &str); 43] = [
-    ("integral", "state z; der(z) = x;"),
-    ("integrate", "state z; der(z) = x;"),
-    ("int", "state z; der(z) = x;"),
-    ("sqr", "x^2"),
-    ("square", "x^2"),
-    ("len", "norm(v)"),
-    ("mag", "norm(v)"),
-    ("magnitude", "norm(v)"),
-    ("dist", "norm(a - b)"),
-    ("fabs", "abs(x)"),
-    ("arcsin", "asin(x)"),
-    ("arccos", "acos(x)"),
-    ("arctan", "atan(x)"),
-    ("arctan2", "atan2(y, x)"),
-    ("log", "ln(x)"),
-    ("log10", "ln(x)/ln(10)"),
-    ("log2", "ln(x)/ln(2)"),
-    ("pow", "x^n"),
-    ("sgn", "sign(x)"),
-    ("diff", "der(x)"),
-    ("ddot", "der(der(x))"),
-    ("ddt", "der(x)"),
-    ("d", "der(x)"),
-    ("length", "norm(v)"),
-    ("hypot", "norm([x, y])"),
-    ("cot", "1/tan(x)"),
-    ("cbrt", "x^(1/3)"),
-    ("velocity", "der(x)"),
-    ("vel", "der(x)"),
-    ("derivative", "der(x)"),
-    ("deriv", "der(x)"),
-    ("D", "der(x)"),
-    ("acceleration", "der(der(x))"),
-    ("acc", "der(der(x))"),
-    ("der2", "der(der(x))"),
-    ("sind", "sin(x*deg)"),
-    ("cosd", "cos(x*deg)"),
-    ("tand", "tan(x*deg)"),
-    ("radians", "x*deg"),
-    ("deg2rad", "x*deg"),
-    ("degrees", "x/deg"),
-    ("rad2deg", "x/deg"),
-    ("power", "x^n"),
+/// Names that other languages have, and how the same is written here.
+const ELSEWHERE: [(&[&str], &str); 25] = [
+    (&["integral", "integrate", "int"], "state z; der(z) = x;"),
+    (&["sqr", "square"], "x^2"),
+    (&["len", "mag", "magnitude", "length"], "norm(v)"),
+    (&["dist"], "norm(a - b)"),
+    (&["fabs"], "abs(x)"),
+    (&["arcsin"], "asin(x)"),
+    (&["arccos"], "acos(x)"),
+    (&["arctan"], "atan(x)"),
+    (&["arctan2"], "atan2(y, x)"),
+    (&["log"], "ln(x)"),
+    (&["log10"], "ln(x)/ln(10)"),
+    (&["log2"], "ln(x)/ln(2)"),
+    (&["pow", "power"], "x^n"),
+    (&["sgn"], "sign(x)"),
+    (&["diff", "ddt", "d", "D"], "der(x)"),
+    (&["derivative", "deriv", "velocity", "vel"], "der(x)"),
+    (&["ddot", "acceleration", "acc", "der2"], "der(der(x))"),
+    (&["hypot"], "norm([x, y])"),
+    (&["cot"], "1/tan(x)"),
+    (&["cbrt"], "x^(1/3)"),
+    (&["sind"], "sin(x*deg)"),
+    (&["cosd"], "cos(x*deg)"),
+    (&["tand"], "tan(x*deg)"),
+    (&["radians", "deg2rad"], "x*deg"),
+    (&["degrees", "rad2deg"], "x/deg"),
 ];
+
+/// How what a name stands for in other languages is written here.
+pub fn from_elsewhere(name: &str) -> Option<&'static str> {
+    let found = ELSEWHERE.iter().find(|(names, _)| names.contains(&name));
+    found.map(|(_, form)| *form)
+}
 
 /// Functions of other languages that jump again and again.
 pub const JUMPING: [&str; 10] = [

@@ -8,43 +8,25 @@ use super::messages::{FOR, did_you_mean};
 use crate::diagnostic::nearest;
 
 /// Words that begin statements elsewhere, and the one of the same meaning.
-const WORDS: [(&str, &str); 36] = [
-    ("parameter", "param"),
-    ("parameters", "param"),
-    ("constant", "const"),
-    ("coordinate", "coord"),
-    ("coordinates", "coord"),
-    ("variable", "coord"),
-    ("var", "coord"),
-    ("dof", "coord"),
-    ("real", "param"),
-    ("Real", "param"),
-    ("float", "param"),
-    ("double", "param"),
-    ("def", "fn"),
-    ("function", "fn"),
-    ("func", "fn"),
-    ("initial", "start"),
-    ("init", "start"),
-    ("equation", "constraint"),
-    ("eq", "constraint"),
-    ("joint", "constraint"),
-    ("import", "use"),
-    ("include", "use"),
-    ("using", "use"),
-    ("signal", "input"),
-    ("control", "input"),
-    ("print", "output"),
-    ("plot", "output"),
-    ("record", "output"),
-    ("measure", "output"),
-    ("friction", "dissipation"),
-    ("damping", "dissipation"),
-    ("body", "part"),
-    ("class", "part"),
-    ("model", "part"),
-    ("block", "part"),
-    ("torque", "force"),
+const WORDS: [(&[&str], &str); 12] = [
+    (
+        &["parameter", "parameters", "real", "Real", "float", "double"],
+        "param",
+    ),
+    (&["constant"], "const"),
+    (
+        &["coordinate", "coordinates", "variable", "var", "dof"],
+        "coord",
+    ),
+    (&["def", "function", "func"], "fn"),
+    (&["initial", "init"], "start"),
+    (&["equation", "eq", "joint"], "constraint"),
+    (&["import", "include", "using"], "use"),
+    (&["signal", "control"], "input"),
+    (&["print", "plot", "record", "measure"], "output"),
+    (&["friction", "damping"], "dissipation"),
+    (&["body", "class", "model", "block"], "part"),
+    (&["torque"], "force"),
 ];
 
 /// What stands behind a word that begins no statement.
@@ -74,7 +56,7 @@ pub fn statement_help(word: &str, follows: &Follows) -> String {
     if ["while", "repeat", "loop"].contains(&word) {
         return FOR.to_string();
     }
-    if let Some((_, ours)) = WORDS.iter().find(|(theirs, _)| *theirs == word) {
+    if let Some((_, ours)) = WORDS.iter().find(|(theirs, _)| theirs.contains(&word)) {
         let example = STATEMENTS.iter().find(|(known, ..)| known == ours);
         let example = example.map_or("", |(.., example)| example);
         return format!("the word is `{ours}`: `{example}`");
