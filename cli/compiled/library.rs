@@ -58,38 +58,10 @@ impl Library {
 }
 
 /// Headers of C, and the one that all exports include: none of a mechanism may hide them.
-const HEADERS: [&str; 30] = [
-    "assert",
-    "bricard",
-    "complex",
-    "ctype",
-    "errno",
-    "fenv",
-    "float",
-    "inttypes",
-    "iso646",
-    "limits",
-    "locale",
-    "math",
-    "setjmp",
-    "signal",
-    "stdalign",
-    "stdarg",
-    "stdatomic",
-    "stdbool",
-    "stddef",
-    "stdint",
-    "stdio",
-    "stdlib",
-    "stdnoreturn",
-    "string",
-    "tgmath",
-    "threads",
-    "time",
-    "uchar",
-    "wchar",
-    "wctype",
-];
+const HEADERS: &str = "\
+    assert bricard complex ctype errno fenv float inttypes iso646 limits locale math setjmp \
+    signal stdalign stdarg stdatomic stdbool stddef stdint stdio stdlib stdnoreturn string \
+    tgmath threads time uchar wchar wctype";
 
 /// The name of the module of a description: that of its file, in letters that Rust knows.
 pub fn module_of(file: &Path) -> String {
@@ -100,7 +72,8 @@ pub fn module_of(file: &Path) -> String {
     };
     let plain: String = stem.to_string_lossy().chars().map(letter).collect();
     let plain = plain.trim_matches('_');
-    if HEADERS.contains(&&*plain.to_ascii_lowercase()) {
+    let lower = plain.to_ascii_lowercase();
+    if HEADERS.split(' ').any(|header| header == lower) {
         return module_name(&format!("{plain}_mechanism"));
     }
     match plain.chars().next() {

@@ -90,48 +90,12 @@ fn is_identifier(word: &str) -> bool {
 }
 
 /// Types that stand beside a mechanism's in its module.
-const NEIGHBOURS: [&str; 40] = [
-    "Canvas",
-    "Condition",
-    "ConnectedComponent",
-    "ConstraintRow",
-    "Correction",
-    "Declared",
-    "Default",
-    "Described",
-    "Differentiated",
-    "Direction",
-    "Energy",
-    "Event",
-    "Initial",
-    "Inputs",
-    "Interface",
-    "Linearised",
-    "Mechanism",
-    "Multiplier",
-    "None",
-    "Option",
-    "Parameters",
-    "Partials",
-    "Position",
-    "Quantity",
-    "Real",
-    "Acceleration",
-    "Result",
-    "SMatrix",
-    "SVector",
-    "Self",
-    "Some",
-    "Start",
-    "StartEquations",
-    "StartFault",
-    "State",
-    "Structure",
-    "Switch",
-    "T",
-    "Table",
-    "Terms",
-];
+const NEIGHBOURS: &str = "\
+    Canvas Condition ConnectedComponent ConstraintRow Correction Declared Default Described \
+    Differentiated Direction Energy Event Initial Inputs Interface Linearised Mechanism \
+    Multiplier None Option Parameters Partials Position Quantity Real Acceleration Result \
+    SMatrix SVector Self Some Start StartEquations StartFault State Structure Switch T Table \
+    Terms";
 
 /// The static of a table.
 pub(super) fn table_name(index: u32) -> Ident {
@@ -147,8 +111,8 @@ pub(super) fn camel_case(name: &str) -> String {
         camel.extend(letters.next().into_iter().flat_map(char::to_uppercase));
         camel.push_str(letters.as_str());
     }
-    let free = !NEIGHBOURS.contains(&camel.as_str());
-    if free && is_identifier(&camel) {
+    let is_taken = NEIGHBOURS.split(' ').any(|name| name == camel);
+    if !is_taken && is_identifier(&camel) {
         camel
     } else {
         format!("Mechanism{camel}")
