@@ -6,10 +6,11 @@
 //!      others.
 
 use super::function::{Binding, Writer, pattern};
+use super::name::ident;
 use crate::expr::Function;
 use crate::model::Symbol;
 use crate::optimise::{Operation, Value};
-use proc_macro2::{Ident, Span, TokenStream};
+use proc_macro2::{Ident, TokenStream};
 use quote::quote;
 use rustc_hash::FxHashSet;
 use std::collections::BTreeSet;
@@ -182,7 +183,7 @@ impl Writer<'_> {
         let [has_sin, has_cos] = [Function::Sin, Function::Cos].map(|f| self.has(f, x));
         let mut name = |has: bool, prefix: &str| match has {
             true => self.names.unique(&format!("{prefix}_{text}")),
-            false => Ident::new("_", Span::call_site()),
+            false => ident("_"),
         };
         (name(has_sin, "sin"), name(has_cos, "cos"))
     }

@@ -5,9 +5,10 @@
 
 use super::columns::{MASS, columns};
 use super::function::Decided;
+use super::name::ident;
 use super::subject::{Called, Reads, Subject, Written, doc_lines, entry};
 use crate::optimise::{Array, Optimised};
-use proc_macro2::{Ident, Literal, Span, TokenStream};
+use proc_macro2::{Literal, TokenStream};
 use quote::quote;
 
 const CORIOLIS_FORCE: &str =
@@ -87,7 +88,7 @@ fn function(subject: &Subject, array: Array, computed: &Optimised) -> TokenStrea
         false => quote!(#kind::zeros()),
     };
     let docs = doc_lines(described.docs);
-    let name = Ident::new(array.name(), Span::call_site());
+    let name = ident(array.name());
     let n = subject.sizes().0;
     quote! {
         #(#[doc = #docs])*

@@ -6,18 +6,17 @@
 //! Not here: the functions of C themselves, which are the same for all mechanisms and live
 //! in `bricard-capi`.
 
-use super::name::{module_name, type_name};
+use super::name::{camel_case, ident, snake_case};
 use crate::model::{Mechanism, Quantity};
-use proc_macro2::{Ident, Literal, Span, TokenStream};
+use proc_macro2::{Literal, TokenStream};
 use quote::quote;
 use std::collections::BTreeSet;
 
 /// The function by which a library hands a mechanism out.
 pub(super) fn export(mechanism: &Mechanism, module: &str) -> TokenStream {
-    let ident = |name: &str| Ident::new(name, Span::call_site());
-    let module_ident = ident(&module_name(module));
-    let function = ident(&format!("{}_interface", module_name(module)));
-    let kind = ident(&type_name(&mechanism.name));
+    let module_ident = ident(&snake_case(module));
+    let function = ident(&format!("{}_interface", snake_case(module)));
+    let kind = ident(&camel_case(&mechanism.name));
     let coordinates = Literal::usize_unsuffixed(mechanism.coordinates.len());
     let constraints = Literal::usize_unsuffixed(mechanism.constraints.len());
     let docs = format!(
@@ -53,7 +52,7 @@ fn places(mechanism: &Mechanism, prefix: &str) -> String {
 
 /// The header of a mechanism, which goes with `bricard.h`.
 pub fn c_header(mechanism: &Mechanism, module: &str) -> String {
-    let module = module_name(module);
+    let module = snake_case(module);
     let upper = module.to_uppercase();
     let (n, r) = (mechanism.coordinates.len(), mechanism.constraints.len());
     let quantities = places(mechanism, &upper);

@@ -4,9 +4,8 @@
 //! Out: their table for the structure, the method of the interface that computes them,
 //!      and a line for the documentation.
 
-use super::function::Decided;
 use super::quantity::{constraint_row, quantity};
-use super::subject::{Called, Subject, Written};
+use super::subject::{Subject, Written};
 use crate::optimise::Slot;
 use proc_macro2::TokenStream;
 use quote::quote;
@@ -40,7 +39,7 @@ pub(super) fn described(subject: &Subject) -> TokenStream {
         state,
         acceleration,
         cost,
-    } = subject.body(computed, (Decided::ByState, Called::OnRequest));
+    } = subject.on_request(computed);
     let statements = &body.statements;
     let computed = (0..count).map(|i| {
         let parts = [0, 1, 2, 3].map(|part| Slot::of_vector("described", 4 * i + part));

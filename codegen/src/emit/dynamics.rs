@@ -1,13 +1,13 @@
 //! The equations of motion: the trait implementation.
 
 use super::filling::{Heading, Method, begin, types};
-use super::function::Decided;
 use super::index::Target;
 use super::linearised::linearised;
-use super::subject::{Called, Subject, Written, cost_in_words, entry, entry_of_field};
+use super::name::ident;
+use super::subject::{Subject, Written, cost_in_words, entry, entry_of_field};
 use super::switches::switches;
 use crate::optimise::{Optimised, Slot, Solved, Way, cost};
-use proc_macro2::{Ident, Span, TokenStream};
+use proc_macro2::TokenStream;
 use quote::quote;
 
 const TERMS: &str = "Everything one acceleration needs: `M q̈ + r = p₁`, `A q̈ = p₂`.
@@ -172,10 +172,7 @@ fn entry_of_solution(target: &Target) -> Option<TokenStream> {
 fn energy(subject: &Subject) -> TokenStream {
     let Written {
         body, state, cost, ..
-    } = subject.body(
-        &subject.programs.energy,
-        (Decided::ByState, Called::OnRequest),
-    );
+    } = subject.on_request(&subject.programs.energy);
     let slots = [0, 1, 2, 3].map(|row| Slot::of_vector("energy", row));
     let [kinetic, potential, balance, power] = slots.map(|slot| body.output(slot));
     let (statements, n) = (&body.statements, subject.sizes().0);
@@ -188,8 +185,4 @@ fn energy(subject: &Subject) -> TokenStream {
             Energy { kinetic: #kinetic, potential: #potential, balance: #balance, power: #power }
         }
     }
-}
-
-fn ident(name: &str) -> Ident {
-    Ident::new(name, Span::call_site())
 }

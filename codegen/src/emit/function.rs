@@ -8,12 +8,12 @@
 
 use super::index::{Index, Target};
 use super::literal;
-use super::name::{Names, table_name};
+use super::name::{Names, ident, table_name};
 use super::statements::Statements;
 use crate::expr::{Comparison, Entry, Function, Function2, Lookup, Side, Test};
 use crate::model::Symbol;
 use crate::optimise::{Operation, Program, Slot, Value};
-use proc_macro2::{Ident, Literal, Span, TokenStream};
+use proc_macro2::{Ident, Literal, TokenStream};
 use quote::quote;
 use rustc_hash::FxHashMap;
 use std::collections::BTreeSet;
@@ -321,7 +321,7 @@ impl<'a> Writer<'a> {
             return self.lookup(lookup, x);
         }
         let argument = self.bound(x, Binding::Atom);
-        let name = Ident::new(function.name(), Span::call_site());
+        let name = ident(function.name());
         Piece {
             operands: self.operands([x]),
             ..atom(quote!(#argument.#name()))
@@ -365,7 +365,7 @@ impl<'a> Writer<'a> {
             Function2::Pow => "powf",
             _ => function.name(),
         };
-        let name = Ident::new(name, Span::call_site());
+        let name = ident(name);
         let operands = self.operands([x, y]);
         // Two traits give numbers a `min` and a `max`; name the one that is meant.
         Piece {
@@ -392,10 +392,7 @@ impl<'a> Writer<'a> {
                     Side::Above(_) => "above",
                     Side::Below(_) => "below",
                 };
-                let (name, index) = (
-                    Ident::new(name, Span::call_site()),
-                    Literal::u32_unsuffixed(index),
-                );
+                let (name, index) = (ident(name), Literal::u32_unsuffixed(index));
                 quote!(out.sides.#name(#index, #a #sign #b))
             }
         };

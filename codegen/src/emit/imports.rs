@@ -3,8 +3,9 @@
 //! In:  a mechanism, its programs.
 //! Out: its `use` items.
 
+use super::name::ident;
 use super::subject::Subject;
-use proc_macro2::{Ident, Span, TokenStream};
+use proc_macro2::TokenStream;
 use quote::quote;
 
 /// What every module uses.
@@ -58,9 +59,7 @@ pub(super) fn imports(subject: &Subject) -> TokenStream {
     let mut names: Vec<&str> = used.flat_map(|(_, names)| names).copied().collect();
     names.sort_unstable();
     names.dedup();
-    let names = names
-        .into_iter()
-        .map(|name| Ident::new(name, Span::call_site()));
+    let names = names.into_iter().map(ident);
     quote! {
         use bricard_runtime::nalgebra::{SMatrix, SVector};
         use bricard_runtime::{#(#names),*};

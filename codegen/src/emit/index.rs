@@ -3,8 +3,9 @@
 //! In:  a number, and by how much it changes from one turn of a loop to the next.
 //! Out: the expression for it.
 
+use super::name::ident;
 use crate::optimise::Slot;
-use proc_macro2::{Ident, Literal, Span, TokenStream};
+use proc_macro2::{Ident, Literal, TokenStream};
 use quote::{ToTokens, quote};
 use std::cmp::Ordering;
 
@@ -41,7 +42,7 @@ impl From<&Slot> for Target {
 
 /// The variable that counts the turns of a loop.
 pub(super) fn turn() -> Ident {
-    Ident::new("turn", Span::call_site())
+    ident("turn")
 }
 
 impl ToTokens for Index {

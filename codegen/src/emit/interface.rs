@@ -1,10 +1,9 @@
 //! `impl Interface`: parameters by place, start, outputs, events, the picture.
 
 use super::described::described;
-use super::function::Decided;
 use super::list::list;
 use super::outputs;
-use super::subject::{Called, Subject, Written};
+use super::subject::{Subject, Written};
 use crate::model::{Point, Shape};
 use crate::optimise::Slot;
 use proc_macro2::{Literal, TokenStream};
@@ -100,10 +99,7 @@ fn set_input(subject: &Subject) -> TokenStream {
 fn start(subject: &Subject) -> TokenStream {
     let n = subject.sizes().0;
     let starts = &subject.mechanism.starts;
-    let Written { body, .. } = subject.body(
-        &subject.programs.start,
-        (Decided::ByState, Called::OnRequest),
-    );
+    let Written { body, .. } = subject.on_request(&subject.programs.start);
     let statements = &body.statements;
     // What is given again later counts.
     let given: BTreeMap<(bool, usize), usize> = starts
@@ -144,10 +140,7 @@ fn draw(subject: &Subject) -> TokenStream {
     if shapes.is_empty() {
         return quote!(fn draw(&self, _state: &State<T, #n>, _canvas: &mut dyn Canvas<T>) {});
     }
-    let Written { body, state, .. } = subject.body(
-        &subject.programs.draw,
-        (Decided::ByState, Called::OnRequest),
-    );
+    let Written { body, state, .. } = subject.on_request(&subject.programs.draw);
     let statements = &body.statements;
     let mut numbers = (0..).map(|row| body.output(Slot::of_vector("draw", row)));
     let mut take = || numbers.next().unwrap_or_default();

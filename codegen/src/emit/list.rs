@@ -1,9 +1,10 @@
 //! Methods that write lists of values.
 
 use super::function::Decided;
+use super::name::ident;
 use super::subject::{Called, Subject, Written};
 use crate::optimise::{List, Optimised, Slot};
-use proc_macro2::{Ident, Span, TokenStream};
+use proc_macro2::TokenStream;
 use quote::quote;
 
 /// A method that writes a list of values into a slice, as many as there is room for.
@@ -20,7 +21,7 @@ pub(super) fn all_values(
     computed: &Optimised,
 ) -> TokenStream {
     let n = subject.sizes().0;
-    let method = Ident::new(name, Span::call_site());
+    let method = ident(name);
     if count == 0 {
         return quote!(fn #method(&self, _state: &State<T, #n>, _values: &mut [T]) {});
     }

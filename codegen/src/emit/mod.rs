@@ -43,7 +43,7 @@ mod turns;
 mod write;
 
 pub use c::c_header;
-pub use name::{module_name, type_name};
+pub use name::{camel_case as type_name, snake_case as module_name};
 pub use subject::{EmitOptions, Provenance};
 pub use write::{catalogue, render, write_if_changed};
 
@@ -51,7 +51,8 @@ use crate::derive::Equations;
 use crate::model::Mechanism;
 use crate::optimise::Programs;
 use imports::imports;
-use proc_macro2::{Ident, Literal, Span, TokenStream};
+use name::ident;
+use proc_macro2::{Literal, TokenStream};
 use quote::quote;
 use subject::{Subject, doc_lines};
 use symbol::SymbolNames;
@@ -77,7 +78,7 @@ pub fn module(
         options,
     };
     let docs = module_docs(&subject, provenance);
-    let module = Ident::new(&module_name(provenance.module), Span::call_site());
+    let module = ident(&module_name(provenance.module));
     let imports = imports(&subject);
     let format = Literal::u32_unsuffixed(FORMAT);
     let source = provenance.source;

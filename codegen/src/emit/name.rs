@@ -3,6 +3,11 @@
 use proc_macro2::{Ident, Span};
 use std::collections::{BTreeMap, BTreeSet};
 
+/// A word of the emitted code.
+pub(super) fn ident(name: &str) -> Ident {
+    Ident::new(name, Span::call_site())
+}
+
 /// Gives each thing a name of its own.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Names {
@@ -44,25 +49,15 @@ impl Names {
             };
             *next += 1;
             if self.taken.insert(name.clone()) {
-                return Ident::new(&name, Span::call_site());
+                return ident(&name);
             }
         }
     }
 }
 
-/// The name of the module of a description whose file has this stem.
-pub fn module_name(stem: &str) -> String {
-    snake_case(stem)
-}
-
-/// The name of the struct of a mechanism with this name.
-pub fn type_name(name: &str) -> String {
-    camel_case(name)
-}
-
 /// `theta[0]` → `theta_0`, `rodLength` → `rod_length`, `L1` → `l1`; a keyword gets
 /// a trailing underscore.
-pub(super) fn snake_case(name: &str) -> String {
+pub fn snake_case(name: &str) -> String {
     let mut snake = String::new();
     let mut previous_lower = false;
     for c in name.chars() {
@@ -99,12 +94,12 @@ const NEIGHBOURS: &str = "\
 
 /// The static of a table.
 pub(super) fn table_name(index: u32) -> Ident {
-    Ident::new(&format!("TABLE_{index}"), Span::call_site())
+    ident(&format!("TABLE_{index}"))
 }
 
 /// `slider_crank` → `SliderCrank`; what is in camel case stays so. A name that one
 /// of its neighbours has gets `Mechanism` in front.
-pub(super) fn camel_case(name: &str) -> String {
+pub fn camel_case(name: &str) -> String {
     let mut camel = String::new();
     for word in name.split('_').filter(|word| !word.is_empty()) {
         let mut letters = word.chars();

@@ -9,13 +9,13 @@
 use super::function::{Symbols, Words};
 use super::index::Index;
 use super::literal::{number, parts};
-use super::name::Names;
+use super::name::{Names, ident};
 use super::step::{Reference, Step, Steps};
 use super::turns::{Block, Found, Loop};
 use crate::expr::Number;
 use crate::model::Symbol;
 use crate::optimise::{Operation, Program, Value};
-use proc_macro2::{Ident, Literal, Span, TokenStream};
+use proc_macro2::{Ident, Literal, TokenStream};
 use quote::quote;
 use rustc_hash::FxHashMap;
 use std::collections::BTreeSet;
@@ -157,7 +157,7 @@ impl<'a> WithTable<'a> {
 
 /// The static that holds a table of numbers.
 fn table() -> Ident {
-    Ident::new("NUMBERS", Span::call_site())
+    ident("NUMBERS")
 }
 
 impl Symbols for WithTable<'_> {

@@ -4,9 +4,8 @@
 //! Out: the methods of the interface that compute them: outputs of positions and
 //!      velocities, and those of accelerations with the inputs.
 
-use super::function::Decided;
 use super::list::all_values;
-use super::subject::{Called, Subject, Written, argument};
+use super::subject::{Subject, Written, argument};
 use crate::optimise::Slot;
 use proc_macro2::{Literal, TokenStream};
 use quote::quote;
@@ -23,7 +22,7 @@ pub(super) fn outputs(subject: &Subject) -> TokenStream {
     if places.is_empty() {
         return quote!(fn outputs(&self, _state: &State<T, #n>, _values: &mut [T]) {});
     }
-    let written = subject.body(computed, (Decided::ByState, Called::OnRequest));
+    let written = subject.on_request(computed);
     let assigned = assigned(&quote!(values), "outputs", &places, &written);
     let Written {
         body, state, cost, ..
@@ -46,7 +45,7 @@ pub(super) fn signals(subject: &Subject) -> TokenStream {
         return TokenStream::new();
     }
     let computed = &subject.programs.signals;
-    let written = subject.body(computed, (Decided::ByState, Called::OnRequest));
+    let written = subject.on_request(computed);
     let statements = &written.body.statements;
     let [(outputs, to_outputs), (inputs, to_inputs)] = [("outputs", &outputs), ("inputs", &inputs)]
         .map(|(array, places)| {

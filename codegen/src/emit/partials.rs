@@ -3,11 +3,11 @@
 //! In:  a mechanism, its programs.
 //! Out: `impl Differentiated`.
 
-use super::function::Decided;
+use super::name::ident;
 use super::outputs::assigned;
-use super::subject::{Called, Reads, Subject, Written, argument};
+use super::subject::{Reads, Subject, Written, argument};
 use crate::optimise::Program;
-use proc_macro2::{Ident, Span, TokenStream};
+use proc_macro2::TokenStream;
 use quote::quote;
 
 /// `impl Differentiated`, where programs in other languages are served.
@@ -31,10 +31,10 @@ fn partials(subject: &Subject) -> TokenStream {
     };
     let reads = Reads::of(&computed.program);
     let out = argument("out", reads.out);
-    let written = subject.body(computed, (Decided::ByState, Called::OnRequest));
+    let written = subject.on_request(computed);
     let assigned = ["force_by_input", "outputs", "events"].map(|array| {
         let places = places(&computed.program, array);
-        let name = Ident::new(array, Span::call_site());
+        let name = ident(array);
         match places.is_empty() {
             true => TokenStream::new(),
             false => assigned(&quote!(#out.#name), array, &places, &written),

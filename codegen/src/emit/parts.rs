@@ -9,11 +9,12 @@
 //! values in registers and scheduling look at all of a block, again and again.
 
 use super::function::{Place, Symbols, Words};
+use super::name::ident;
 use super::step::{Angles, Step, Steps};
 use super::subject::argument;
 use crate::model::Symbol;
 use crate::optimise::Program;
-use proc_macro2::{Ident, Literal, Span, TokenStream};
+use proc_macro2::{Ident, Literal, TokenStream};
 use quote::quote;
 use rustc_hash::{FxHashMap, FxHashSet};
 
@@ -60,7 +61,7 @@ impl Parts {
         let mut functions = TokenStream::new();
         let mut calls = quote!(let mut kept = [T::zero(); #count];);
         for (number, part) in angles.into_iter().chain(others).enumerate() {
-            let name = Ident::new(&format!("{name}_part_{number}"), Span::call_site());
+            let name = ident(&format!("{name}_part_{number}"));
             let PartBody {
                 body,
                 arguments: [state, out, room],

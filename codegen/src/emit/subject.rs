@@ -3,12 +3,12 @@
 use super::function::{Body, Decided, Place, Words};
 use super::index::{Index, Target};
 use super::loops::Loops;
-use super::name::type_name;
+use super::name::{camel_case, ident};
 use super::symbol::SymbolNames;
 use crate::derive::Equations;
 use crate::model::{Mechanism, Symbol};
 use crate::optimise::{Optimised, Program, Programs};
-use proc_macro2::{Ident, Literal, Span, TokenStream};
+use proc_macro2::{Ident, Literal, TokenStream};
 use quote::quote;
 use rustc_hash::FxHashMap;
 
@@ -103,8 +103,8 @@ impl Reads {
 /// The name of an argument, or that it is not read.
 pub(super) fn argument(name: &str, read: bool) -> Ident {
     match read {
-        true => Ident::new(name, Span::call_site()),
-        false => Ident::new(&format!("_{name}"), Span::call_site()),
+        true => ident(name),
+        false => ident(&format!("_{name}")),
     }
 }
 
@@ -133,7 +133,7 @@ impl Subject<'_> {
     }
 
     pub fn type_name(&self) -> Ident {
-        Ident::new(&type_name(&self.mechanism.name), Span::call_site())
+        ident(&camel_case(&self.mechanism.name))
     }
 
     /// A symbol as the description names it.
@@ -150,6 +150,11 @@ impl Subject<'_> {
             None => self.straight(program, &|_| None, decided),
         };
         self.with_arguments(computed, body)
+    }
+
+    /// The body of a function that somebody asks for, which the state decides.
+    pub fn on_request(&self, computed: &Optimised) -> Written {
+        self.body(computed, (Decided::ByState, Called::OnRequest))
     }
 
     /// The body that runs a program; says what it costs, and what it would cost as derived.
@@ -234,6 +239,6 @@ pub(super) fn entry(array: TokenStream, Target { row, column, .. }: &Target) -> 
 
 /// An entry of the buffer's field of the array's name.
 pub(super) fn entry_of_field(target: &Target) -> Option<TokenStream> {
-    let field = Ident::new(target.array, Span::call_site());
+    let field = ident(target.array);
     Some(entry(quote!(out.#field), target))
 }

@@ -5,8 +5,9 @@
 //!      its parts.
 
 use super::function::{Binding, NESTED_MAX, OPERANDS_MAX, Piece, Writer};
+use super::name::ident;
 use crate::optimise::{Operation, Value};
-use proc_macro2::{Ident, Span};
+use proc_macro2::Ident;
 use quote::quote;
 
 impl Writer<'_> {
@@ -70,7 +71,7 @@ impl Writer<'_> {
         let piece = self.named("sum", sum.tokens);
         let name = piece.name.clone();
         self.pieces[value.index()] = Some(piece);
-        name.unwrap_or_else(|| Ident::new("_", Span::call_site()))
+        name.unwrap_or_else(|| ident("_"))
     }
 
     /// What a sum begins with, and its other terms.

@@ -1,7 +1,7 @@
 //! Tokens to files.
 
-use super::name::{camel_case, snake_case};
-use proc_macro2::{Ident, Span, TokenStream};
+use super::name::{camel_case, ident, snake_case};
+use proc_macro2::TokenStream;
 use quote::quote;
 use std::path::Path;
 use std::{fs, io};
@@ -26,13 +26,11 @@ pub fn render(tokens: &TokenStream) -> String {
 pub fn catalogue(mechanisms: &[(String, String)]) -> TokenStream {
     let names = mechanisms.iter().map(|(stem, _)| stem);
     let paths = mechanisms.iter().map(|(stem, name)| {
-        let module = Ident::new(&snake_case(stem), Span::call_site());
-        let name = Ident::new(&camel_case(name), Span::call_site());
+        let module = ident(&snake_case(stem));
+        let name = ident(&camel_case(name));
         quote!(#module::#name)
     });
-    let modules = mechanisms
-        .iter()
-        .map(|(stem, _)| Ident::new(&snake_case(stem), Span::call_site()));
+    let modules = mechanisms.iter().map(|(stem, _)| ident(&snake_case(stem)));
     let (stems, stems_again) = (names.clone(), names.clone());
     quote! {
         /// The names of all mechanisms, in alphabetical order.
