@@ -44,6 +44,18 @@ pub(super) struct Piece {
     pub(super) name: Option<Ident>,
 }
 
+impl Piece {
+    pub(super) fn new(tokens: TokenStream, binding: Binding, operands: usize) -> Self {
+        Self {
+            tokens,
+            binding,
+            operands,
+            factors: None,
+            name: None,
+        }
+    }
+}
+
 /// What decides the conditions of a function.
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub(super) enum Decided {
@@ -292,12 +304,10 @@ impl<'a> Writer<'a> {
             [first, rest @ ..] => quote!((#first #(* #rest)*)),
             [] => TokenStream::new(),
         };
+        let operands = self.operands(factors.iter().copied());
         Piece {
-            tokens: quote!(#(#pieces *)* #last),
-            binding: Binding::Product,
-            operands: self.operands(factors.iter().copied()),
             factors: bare.map(|bare| (in_front, bare)),
-            name: None,
+            ..Piece::new(quote!(#(#pieces *)* #last), Binding::Product, operands)
         }
     }
 
@@ -307,13 +317,7 @@ impl<'a> Writer<'a> {
             self.bound(y, Binding::Atom),
         );
         let operands = self.operands([x, y]);
-        Piece {
-            tokens: quote!(#above / #below),
-            binding: Binding::Product,
-            operands,
-            factors: None,
-            name: None,
-        }
+        Piece::new(quote!(#above / #below), Binding::Product, operands)
     }
 
     fn call(&self, function: Function, x: Value) -> Piece {
@@ -322,10 +326,8 @@ impl<'a> Writer<'a> {
         }
         let argument = self.bound(x, Binding::Atom);
         let name = ident(function.name());
-        Piece {
-            operands: self.operands([x]),
-            ..atom(quote!(#argument.#name()))
-        }
+        let tokens = quote!(#argument.#name());
+        Piece::new(tokens, Binding::Atom, self.operands([x]))
     }
 
     fn lookup(&self, lookup: Lookup, x: Value) -> Piece {
@@ -352,10 +354,7 @@ impl<'a> Writer<'a> {
             (Entry::Knot, _) => quote!(#table.knot(#argument)),
             (Entry::Passing, _) => quote!(#table.passing(#argument)),
         };
-        Piece {
-            operands: self.operands([x]),
-            ..atom(tokens)
-        }
+        Piece::new(tokens, Binding::Atom, self.operands([x]))
     }
 
     fn call2(&self, function: Function2, x: Value, y: Value) -> Piece {
@@ -366,12 +365,9 @@ impl<'a> Writer<'a> {
             _ => function.name(),
         };
         let name = ident(name);
-        let operands = self.operands([x, y]);
         // Two traits give numbers a `min` and a `max`; name the one that is meant.
-        Piece {
-            operands,
-            ..atom(quote!(Real::#name(#first, #second)))
-        }
+        let tokens = quote!(Real::#name(#first, #second));
+        Piece::new(tokens, Binding::Atom, self.operands([x, y]))
     }
 
     fn select(&self, test: Test, parts: &[Value; 4]) -> Piece {
@@ -398,24 +394,12 @@ impl<'a> Writer<'a> {
         };
         let tokens = quote!(if #condition { #then } else { #otherwise });
         // Named, since an `if` cannot stand at the start of a longer expression.
-        Piece {
-            tokens,
-            binding: Binding::Atom,
-            operands: OPERANDS_MAX + 1,
-            factors: None,
-            name: None,
-        }
+        Piece::new(tokens, Binding::Atom, OPERANDS_MAX + 1)
     }
 }
 
 fn atom(tokens: TokenStream) -> Piece {
-    Piece {
-        tokens,
-        binding: Binding::Atom,
-        operands: 1,
-        factors: None,
-        name: None,
-    }
+    Piece::new(tokens, Binding::Atom, 1)
 }
 
 /// A local variable.

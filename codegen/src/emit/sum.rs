@@ -37,13 +37,7 @@ impl Writer<'_> {
                 (quote!(#so_far #sign #term), Binding::Sum)
             }
         };
-        Piece {
-            tokens,
-            binding,
-            operands,
-            factors: None,
-            name: None,
-        }
+        Piece::new(tokens, binding, operands)
     }
 
     /// The terms of a sum that is too long for one expression, in the order in which they are
@@ -90,20 +84,14 @@ impl Writer<'_> {
 
     /// A sum of one term.
     fn only(&self, minus: bool, value: Value) -> Piece {
-        let Piece {
-            tokens, operands, ..
-        } = self.piece(value);
-        let term = self.bound(value, Binding::Product);
-        Piece {
-            tokens: if minus {
+        let term = self.piece(value);
+        let tokens = match minus {
+            true => {
+                let term = self.bound(value, Binding::Product);
                 quote!(-#term)
-            } else {
-                tokens.clone()
-            },
-            binding: Binding::Sum,
-            operands: *operands,
-            factors: None,
-            name: None,
-        }
+            }
+            false => term.tokens.clone(),
+        };
+        Piece::new(tokens, Binding::Sum, term.operands)
     }
 }
