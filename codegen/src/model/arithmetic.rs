@@ -3,7 +3,7 @@
 use super::evaluate::Evaluator;
 use super::scope::Kind;
 use super::unit::Unit;
-use super::value::{Scalar, Value};
+use super::value::{Scalar, Value, all};
 use crate::diagnostic::{Diagnostic, Span};
 use crate::expr::Number;
 use crate::syntax::ast::{Expr, Name, Range};
@@ -28,14 +28,13 @@ impl Evaluator {
         if let Value::Array(_) = value {
             return self.no_array(inside.span);
         }
-        let scalars = value.scalars().into_iter();
-        let opposite = scalars
-            .map(|s| Scalar {
-                id: self.graph.neg(s.id),
-                ..s
-            })
-            .collect();
-        Some(value.with_scalars(opposite))
+        let opposite = value.scalars().into_iter().map(|s| self.opposite(s));
+        Some(value.with_scalars(opposite.collect()))
+    }
+
+    /// `-x` of a number.
+    pub fn opposite(&mut self, x: Scalar) -> Scalar {
+        Scalar::new(self.graph.neg(x.id), x.unit)
     }
 
     /// Refuses a whole array in a calculation.
@@ -45,11 +44,9 @@ impl Evaluator {
     }
 
     fn parts(&mut self, parts: &[(bool, Expr)]) -> Option<Vec<(bool, Value, Span)>> {
-        let values: Vec<_> = parts
-            .iter()
-            .map(|(flag, part)| Some((*flag, self.evaluate(part)?.operand(), part.span)))
-            .collect();
-        values.into_iter().collect()
+        let value =
+            |(flag, part): &(bool, Expr)| Some((*flag, self.evaluate(part)?.operand(), part.span));
+        all(parts.iter().map(value))
     }
 
     /// `a + b - c`
@@ -84,10 +81,9 @@ impl Evaluator {
                 .iter()
                 .map(move |(minus, s, span)| (*minus, s[k], *span))
         };
-        let sums: Vec<_> = (0..first.scalars().len())
-            .map(|k| self.sum_scalars(&component(k).collect::<Vec<_>>()))
-            .collect();
-        Some(first.with_scalars(sums.into_iter().collect::<Option<_>>()?))
+        let sums =
+            (0..first.scalars().len()).map(|k| self.sum_scalars(&component(k).collect::<Vec<_>>()));
+        Some(first.with_scalars(all(sums)?))
     }
 
     /// The sum of scalars, if they have one unit.
@@ -115,10 +111,7 @@ impl Evaluator {
             .map(|(minus, s, _)| (s.id, weight(*minus)))
             .collect();
         let id = self.graph.weighted_sum(Number::ZERO, &weighted);
-        Some(Scalar {
-            id: self.valid(id, around(terms))?,
-            unit,
-        })
+        Some(Scalar::new(self.valid(id, around(terms))?, unit))
     }
 
     /// `a * b / c`
@@ -160,10 +153,7 @@ impl Evaluator {
         if self.graph.is_zero(id) || (unit == Unit::PURE && self.has_size(factors)) {
             unit = Unit::Number;
         }
-        Some(Scalar {
-            id: self.valid(id, around(factors))?,
-            unit,
-        })
+        Some(Scalar::new(self.valid(id, around(factors))?, unit))
     }
 
     /// A number so small that it would be taken for zero.
@@ -231,10 +221,7 @@ impl Evaluator {
         if self.graph.is_zero(id) && !self.graph.is_zero(value.id) {
             return self.vanished(span);
         }
-        Some(Value::Scalar(Scalar {
-            id: self.valid(id, span)?,
-            unit,
-        }))
+        Some(Value::Scalar(Scalar::new(self.valid(id, span)?, unit)))
     }
 
     /// `sum(i in a..b, term)`
@@ -251,10 +238,7 @@ impl Evaluator {
         }
         if values.is_empty() {
             let id = self.graph.integer(0);
-            return Some(Value::Scalar(Scalar {
-                id,
-                unit: Unit::Number,
-            }));
+            return Some(Value::Scalar(Scalar::new(id, Unit::Number)));
         }
         let sum = self.sum_values(&values);
         if sum.is_none() {
@@ -300,10 +284,7 @@ impl Evaluator {
 
     fn set_index(&mut self, index: &Name, value: i64) {
         let id = self.graph.integer(value);
-        let value = Value::Scalar(Scalar {
-            id,
-            unit: Unit::Number,
-        });
+        let value = Value::Scalar(Scalar::new(id, Unit::Number));
         self.scope.set(&index.text, Some(value));
     }
 }

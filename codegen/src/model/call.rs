@@ -6,7 +6,7 @@ use super::linear::transposed;
 use super::messages::{count, takes_others};
 use super::scope::Kind;
 use super::unit::{PER_SECOND, Unit};
-use super::value::{Matrix, Scalar, Value};
+use super::value::{Matrix, Scalar, Value, all};
 use crate::diagnostic::{Diagnostic, Span, nearest};
 use crate::expr::{Function, Function2};
 use crate::syntax;
@@ -71,11 +71,7 @@ impl Evaluator {
             "quat" => return self.quaternion(arguments, span),
             _ => {}
         }
-        let values: Vec<_> = arguments
-            .iter()
-            .map(|argument| self.evaluate(argument))
-            .collect();
-        let mut values = values.into_iter().collect::<Option<Vec<_>>>()?;
+        let mut values = all(arguments.iter().map(|argument| self.evaluate(argument)))?;
         if matches!(name, "dot" | "norm" | "norm2" | "cross") {
             values = values.into_iter().map(Value::array_to_vector).collect();
         }
@@ -96,10 +92,7 @@ impl Evaluator {
             ("norm", [Value::Vector(v)]) => {
                 let square = self.inner(v, v, span)?;
                 let id = self.graph.function(Function::Sqrt, square.id);
-                Some(Value::Scalar(Scalar {
-                    id,
-                    unit: square.unit.power(0.5),
-                }))
+                Some(Value::Scalar(Scalar::new(id, square.unit.power(0.5))))
             }
             ("transpose", [Value::Matrix(m)]) => self.transpose(m, span).map(Value::Matrix),
             ("omega", [Value::Matrix(m)]) if m.is_square() && m.rows.len() <= 3 => {
@@ -166,10 +159,7 @@ impl Evaluator {
             _ => common,
         };
         let id = self.graph.function2(function, x.id, y.id);
-        Some(Value::Scalar(Scalar {
-            id: self.valid(id, span)?,
-            unit,
-        }))
+        Some(Value::Scalar(Scalar::new(self.valid(id, span)?, unit)))
     }
 
     fn cross(&mut self, a: &[Scalar], b: &[Scalar], span: Span) -> Option<Value> {
@@ -195,13 +185,7 @@ impl Evaluator {
             2 => spin.to_vec(),
             _ => self.transform(m, &spin, span)?,
         };
-        let turned = turned.into_iter();
-        let opposite: Vec<_> = turned
-            .map(|s| Scalar {
-                id: self.graph.neg(s.id),
-                ..s
-            })
-            .collect();
+        let opposite: Vec<Scalar> = turned.into_iter().map(|s| self.opposite(s)).collect();
         Some(Matrix {
             rows,
             spin: opposite.try_into().ok(),
@@ -224,12 +208,8 @@ impl Evaluator {
 
     /// `der(x)`: the total derivative in time.
     pub fn derivative(&mut self, value: &Value, span: Span) -> Option<Value> {
-        let rates: Vec<_> = value
-            .scalars()
-            .into_iter()
-            .map(|s| self.rate(s, span))
-            .collect();
-        Some(value.with_scalars(rates.into_iter().collect::<Option<_>>()?))
+        let rates = value.scalars().into_iter().map(|s| self.rate(s, span));
+        Some(value.with_scalars(all(rates)?))
     }
 
     /// The total derivative of a scalar in time.
@@ -251,10 +231,7 @@ impl Evaluator {
             Unit::Number if self.graph.is_zero(id) => Unit::Number,
             unit => unit.times(Unit::Known(PER_SECOND)),
         };
-        Some(Scalar {
-            id: self.valid(id, span)?,
-            unit,
-        })
+        Some(Scalar::new(self.valid(id, span)?, unit))
     }
 
     /// The names of all functions, built in and of the description.

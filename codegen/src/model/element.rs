@@ -2,7 +2,7 @@
 
 use super::evaluate::Evaluator;
 use super::messages::{are, elements_differ};
-use super::value::{AXES, Array, Matrix, Value};
+use super::value::{AXES, Array, Matrix, Value, all};
 use crate::diagnostic::{Diagnostic, Span};
 use crate::syntax::ast::{Expr, Name, Range};
 use crate::syntax::messages::NO_ELEMENTS;
@@ -54,8 +54,7 @@ impl Evaluator {
         let values = parts
             .iter()
             .map(|part| Some(self.evaluate(part)?.operand()));
-        let values: Vec<_> = values.collect();
-        let values = values.into_iter().collect::<Option<Vec<_>>>()?;
+        let values = all(values)?;
         if !(2..=4).contains(&values.len()) {
             let here = are(values.len());
             let message = format!("a vector has two to four components, here {here}");

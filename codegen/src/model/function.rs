@@ -16,7 +16,7 @@ use super::order::{Definition, Mention, collect, order};
 use super::scope::{Kind, twice};
 use super::unit::{NONE, Unit};
 use super::unit_names;
-use super::value::{Scalar, Value};
+use super::value::{Scalar, Value, all};
 use crate::diagnostic::{Diagnostic, Span};
 use crate::expr;
 use crate::syntax::ast::{Argument, Expr, Function, Item, ItemKind, Name, UnitExpr};
@@ -163,12 +163,8 @@ impl Evaluator {
         known.used = true;
         let function = Rc::clone(known.item.as_ref()?);
         self.arguments_fit(name, &function.arguments, arguments, span)?;
-        let values: Vec<_> = function.arguments.iter().zip(arguments).collect();
-        let values = values
-            .into_iter()
-            .map(|(argument, e)| self.argument(&name.text, argument, e));
-        let values: Vec<Option<Value>> = values.collect();
-        let values = values.into_iter().collect::<Option<Vec<_>>>()?;
+        let values = function.arguments.iter().zip(arguments);
+        let values = all(values.map(|(argument, e)| self.argument(&name.text, argument, e)))?;
         if !self.has_room() {
             let error = Diagnostic::error(span, "too many functions call one another");
             return self.report(error.help("write out what the innermost ones say"));

@@ -2,7 +2,7 @@
 
 use super::arithmetic::Part;
 use super::evaluate::Evaluator;
-use super::value::{Matrix, Scalar, Value};
+use super::value::{Matrix, Scalar, Value, all};
 use crate::diagnostic::{Diagnostic, Span};
 
 impl Evaluator {
@@ -59,10 +59,8 @@ impl Evaluator {
 
     fn scale(&mut self, value: &Value, factor: Part, span: Span) -> Option<Value> {
         let scalars = value.scalars().into_iter();
-        let scaled: Vec<_> = scalars
-            .map(|s| self.product_scalars(&[(false, s, span), factor]))
-            .collect();
-        Some(value.with_scalars(scaled.into_iter().collect::<Option<_>>()?))
+        let scaled = scalars.map(|s| self.product_scalars(&[(false, s, span), factor]));
+        Some(value.with_scalars(all(scaled)?))
     }
 
     /// `M v`
@@ -102,13 +100,9 @@ impl Evaluator {
 
     /// `Σ a_k b_k`
     pub fn inner(&mut self, a: &[Scalar], b: &[Scalar], span: Span) -> Option<Scalar> {
-        let products: Vec<_> = a
-            .iter()
-            .zip(b)
-            .map(|(x, y)| self.times(*x, *y, span))
-            .collect();
-        let products: Vec<_> = products.into_iter().collect::<Option<_>>()?;
-        let terms: Vec<_> = products.into_iter().map(|s| (false, s, span)).collect();
+        let pairs = a.iter().zip(b);
+        let products = pairs.map(|(x, y)| Some((false, self.times(*x, *y, span)?, span)));
+        let terms = all(products)?;
         self.sum_scalars(&terms)
     }
 

@@ -6,7 +6,7 @@
 use super::lowering::Lowering;
 use super::messages::are;
 use super::symbol::Symbol;
-use super::value::{Scalar, Value};
+use super::value::{Scalar, Value, all};
 use super::{Point, Shape};
 use crate::diagnostic::{Diagnostic, Span};
 use crate::expr::ExprId;
@@ -35,8 +35,7 @@ impl Lowering<'_> {
             }
             _ => (arguments, None),
         };
-        let points: Vec<_> = places.iter().map(|place| self.points(place)).collect();
-        let points = points.into_iter().collect::<Option<Vec<_>>>()?.concat();
+        let points = all(places.iter().map(|place| self.points(place)))?.concat();
         match (shape, points.as_slice(), radius) {
             (Drawing::Line, [_, _, ..], _) => Some(Shape::Line(points)),
             (Drawing::Polygon, [_, _, _, ..], _) => Some(Shape::Polygon(points)),

@@ -48,10 +48,7 @@ impl Evaluator {
             return None;
         }
         let rate = self.rate(angle, span)?;
-        let none = Scalar {
-            id: self.graph.integer(0),
-            unit: rate.unit,
-        };
+        let none = Scalar::new(self.graph.integer(0), rate.unit);
         let mut spin = [none; 3];
         spin[axis] = rate;
         Some(spin)
@@ -80,10 +77,7 @@ impl Evaluator {
         let (cos, sin) = (about_z.rows[0][0], about_z.rows[1][0]);
         let one = self.graph.integer(1);
         let unit = cos.unit;
-        let versed = Scalar {
-            id: self.graph.sub(one, cos.id),
-            unit,
-        };
+        let versed = Scalar::new(self.graph.sub(one, cos.id), unit);
         let mut rows = vec![Vec::new(); 3];
         for (i, row) in rows.iter_mut().enumerate() {
             for j in 0..3 {
@@ -136,15 +130,12 @@ impl Evaluator {
             let error = Diagnostic::error(axis.span, "this axis has no direction");
             return self.report(error.help("write a vector that is not zero, such as `[0, 0, 1]`"));
         }
-        let length = Scalar {
-            id: self.graph.function(Function::Sqrt, square.id),
-            unit: square.unit.power(0.5),
-        };
+        let length = self.graph.function(Function::Sqrt, square.id);
+        let length = Scalar::new(length, square.unit.power(0.5));
         let unit = |part: Scalar| part.unit.times(length.unit.power(-1.0));
-        let along = parts.iter().map(|part| Scalar {
-            id: self.graph.div(part.id, length.id),
-            unit: unit(*part),
-        });
+        let along = parts
+            .iter()
+            .map(|part| Scalar::new(self.graph.div(part.id, length.id), unit(*part)));
         let along: Vec<Scalar> = along.collect();
         along.try_into().ok()
     }
@@ -202,10 +193,10 @@ impl Evaluator {
             .iter()
             .map(|(s, weight)| (s.id, Number::integer(*weight)))
             .collect();
-        Some(Scalar {
-            id: self.graph.weighted_sum(Number::ZERO, &terms),
+        Some(Scalar::new(
+            self.graph.weighted_sum(Number::ZERO, &terms),
             unit,
-        })
+        ))
     }
 
     /// 2 Ē(e) ė = 2 (e₀ ė − ė₀ e − e × ė), bilinear.
@@ -242,10 +233,10 @@ impl Evaluator {
                 .iter()
                 .map(|(s, w)| (s.id, Number::integer(*w)))
                 .collect();
-            spin.push(Scalar {
-                id: self.graph.weighted_sum(Number::ZERO, &weighted),
+            spin.push(Scalar::new(
+                self.graph.weighted_sum(Number::ZERO, &weighted),
                 unit,
-            });
+            ));
         }
         spin.try_into().ok()
     }

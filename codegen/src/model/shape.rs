@@ -7,9 +7,10 @@
 use super::evaluate::Evaluator;
 use super::lowering::Lowering;
 use super::messages::{SIZE, elements_differ};
+use super::symbol::Symbol;
 use super::unit::Unit;
 use super::unit_names;
-use super::value::{Array, Scalar, Value};
+use super::value::{Array, Scalar, Value, all};
 use crate::diagnostic::{Diagnostic, Span};
 use crate::syntax::ast::{Declaration, Expr, ExprKind, Range, Size, UnitExpr};
 use crate::syntax::messages::DECLARED;
@@ -57,9 +58,7 @@ impl Evaluator {
             _ => (None, None),
         };
         if let Some(parts) = list {
-            let items = parts.iter().map(|part| self.evaluate(part));
-            let items: Vec<_> = items.collect();
-            let items = items.into_iter().collect::<Option<Vec<_>>>()?;
+            let items = all(parts.iter().map(|part| self.evaluate(part)))?;
             self.as_many(declaration, count, items.len())?;
             let array = self.array_of(0, items, value.span)?;
             return match unit {
@@ -175,11 +174,9 @@ impl Lowering<'_> {
     pub fn input_symbols(&mut self, declaration: &Declaration, first: u32) -> Option<Value> {
         let unit = self.unit(declaration.unit.as_ref());
         let evaluator = &mut self.evaluator;
-        let symbol = |evaluator: &mut Evaluator, k: usize| Scalar {
-            id: evaluator
-                .graph
-                .symbol(super::symbol::Symbol::Input(first + k as u32)),
-            unit,
+        let symbol = |evaluator: &mut Evaluator, k: usize| {
+            let id = evaluator.graph.symbol(Symbol::Input(first + k as u32));
+            Scalar { id, unit }
         };
         let list = match &declaration.value.kind {
             ExprKind::InUnit(inside, _) => &inside.kind,

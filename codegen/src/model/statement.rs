@@ -121,10 +121,7 @@ impl Lowering<'_> {
                 return self.report(*diagnostic);
             }
             let id = self.evaluator.graph.integer(i);
-            let index = Value::Scalar(Scalar {
-                id,
-                unit: Unit::Number,
-            });
+            let index = Value::Scalar(Scalar::new(id, Unit::Number));
             self.evaluator.scope.set(&range.index.text, Some(index));
             self.indices.push((range.index.text.clone(), i));
             body(self);

@@ -102,10 +102,8 @@ impl Evaluator {
                 return self.report(Diagnostic::error(span, message).help(fault.help));
             }
         };
-        let mut scalar = |value: f64| Scalar {
-            id: self.graph.number(Number::float(value)),
-            unit: Unit::Number,
-        };
+        let mut scalar =
+            |value: f64| Scalar::new(self.graph.number(Number::float(value)), Unit::Number);
         let point = |[place, value]: [f64; 2]| Point {
             at: scalar(place),
             place,

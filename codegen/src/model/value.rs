@@ -14,6 +14,20 @@ pub struct Scalar {
     pub unit: Unit,
 }
 
+impl Scalar {
+    /// An expression in a unit.
+    pub fn new(id: ExprId, unit: Unit) -> Self {
+        Self { id, unit }
+    }
+}
+
+/// All values, if there are all. Each is looked for though another one is missing, so that all
+/// mistakes are told at once.
+pub fn all<T>(values: impl Iterator<Item = Option<T>>) -> Option<Vec<T>> {
+    let values: Vec<Option<T>> = values.collect();
+    values.into_iter().collect()
+}
+
 /// A matrix of two to four rows of two to four entries.
 #[derive(Clone, Debug)]
 pub struct Matrix {
