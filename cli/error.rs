@@ -187,6 +187,18 @@ pub struct TooMany {
 }
 
 impl CommandError {
+    /// A run that could not begin or ended early, of which no rows are known yet.
+    pub fn run(reason: String) -> Self {
+        let kept = String::new();
+        Self::Run { reason, kept }
+    }
+
+    /// A run that Ctrl-C ended, of which no rows are known yet.
+    pub fn interrupted() -> Self {
+        let kept = String::new();
+        Self::Interrupted { kept }
+    }
+
     /// A failure to write a file; a reader that has gone is a case of its own.
     pub fn write(path: &Path, error: io::Error) -> Self {
         match error.kind() {

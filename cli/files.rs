@@ -50,20 +50,22 @@ pub fn is_of(path: &Path, kinds: &[&str]) -> bool {
 /// # Errors
 ///
 /// [`CommandError::FileKind`], always.
-pub fn refuse(path: &Path, instead: &'static str) -> Result<(), CommandError> {
+pub fn refuse<T>(path: &Path, instead: &'static str) -> Result<T, CommandError> {
     Err(CommandError::FileKind {
         path: path.to_path_buf(),
         instead,
     })
 }
 
+/// The folder that a file is in.
+pub fn folder(file: &Path) -> &Path {
+    let folder = file.parent().filter(|folder| *folder != Path::new(""));
+    folder.unwrap_or(Path::new("."))
+}
+
 /// Where a file is, whatever links and folders lead to it, or where it would be.
 fn place(path: &Path) -> PathBuf {
-    let folder = match path.parent() {
-        Some(folder) if folder != Path::new("") => folder,
-        _ => Path::new("."),
-    };
-    let new = || Some(fs::canonicalize(folder).ok()?.join(path.file_name()?));
+    let new = || Some(fs::canonicalize(folder(path)).ok()?.join(path.file_name()?));
     let there = fs::canonicalize(path).ok().or_else(new);
     there.unwrap_or_else(|| path.to_path_buf())
 }

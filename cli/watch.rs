@@ -6,6 +6,7 @@
 use crate::arguments::Simulate;
 use crate::compiled::{identity, quoted};
 use crate::error::CommandError;
+use crate::files::folder;
 use crate::interrupt;
 use crate::mechanism::file;
 use crate::output::{complain, say};
@@ -77,8 +78,7 @@ pub fn watch(arguments: &Simulate) -> Result<(), CommandError> {
         seen.wait(file, &changes).map_err(failed)?;
         if interrupt::is_wanted() {
             live.iter().for_each(Live::end);
-            let kept = String::new();
-            return Err(CommandError::Interrupted { kept });
+            return Err(CommandError::interrupted());
         }
     }
 }
@@ -155,10 +155,4 @@ impl Version {
         let reads = |name| self.files.iter().any(|own| own.file_name() == name);
         names.any(|name| name == file.file_name() || reads(name))
     }
-}
-
-/// The folder of a file.
-fn folder(file: &Path) -> &Path {
-    let parent = file.parent().filter(|folder| *folder != Path::new(""));
-    parent.unwrap_or(Path::new("."))
 }

@@ -1,6 +1,7 @@
 //! What stands for the writer of Parquet files in a command that was built without it.
 
 use crate::error::CommandError;
+use crate::files::refuse;
 use crate::rows::RowWriter;
 use std::path::Path;
 
@@ -16,8 +17,5 @@ pub const MISSING: Option<&str> = Some(
 ///
 /// [`CommandError::FileKind`], always.
 pub fn writer(path: &Path, _: &[String]) -> Result<Box<dyn RowWriter>, CommandError> {
-    Err(CommandError::FileKind {
-        path: path.to_path_buf(),
-        instead: MISSING.unwrap_or_default(),
-    })
+    refuse(path, MISSING.unwrap_or_default())
 }

@@ -105,7 +105,7 @@ impl Checkpoint {
             "seconds": report.wall.as_secs_f64().to_bits(),
             "passages": passages,
             "events": events,
-            "counters": counts(&report.counters),
+            "counters": counts(report.counters),
         })
     }
 
@@ -189,47 +189,35 @@ fn passage(entry: &Value) -> Option<Passage<f64>> {
     })
 }
 
-fn counts(counters: &Counters) -> [u64; 11] {
+/// All counters.
+fn each(counters: &mut Counters) -> [&mut u64; 11] {
     [
-        counters.cheap_accelerations,
-        counters.beside_accelerations,
-        counters.robust_accelerations,
-        counters.rank_decisions,
-        counters.undetermined,
-        counters.mass_factorisations,
-        counters.constraint_factorisations,
-        counters.row_choices,
-        counters.projections,
-        counters.projection_iterations,
-        counters.robust_projections,
+        &mut counters.cheap_accelerations,
+        &mut counters.beside_accelerations,
+        &mut counters.robust_accelerations,
+        &mut counters.rank_decisions,
+        &mut counters.undetermined,
+        &mut counters.mass_factorisations,
+        &mut counters.constraint_factorisations,
+        &mut counters.row_choices,
+        &mut counters.projections,
+        &mut counters.projection_iterations,
+        &mut counters.robust_projections,
     ]
 }
 
+fn counts(mut counters: Counters) -> [u64; 11] {
+    each(&mut counters).map(|count| *count)
+}
+
 fn counters(value: &Value) -> Option<Counters> {
-    let counts: Option<Vec<u64>> = value.as_array()?.iter().map(count).collect();
-    let counts: [u64; 11] = counts?.try_into().ok()?;
-    let [
-        cheap,
-        beside,
-        robust,
-        decisions,
-        undetermined,
-        mass,
-        rows,
-        choices,
-        ..,
-    ] = counts;
-    Some(Counters {
-        cheap_accelerations: cheap,
-        beside_accelerations: beside,
-        robust_accelerations: robust,
-        rank_decisions: decisions,
-        undetermined,
-        mass_factorisations: mass,
-        constraint_factorisations: rows,
-        row_choices: choices,
-        projections: counts[8],
-        projection_iterations: counts[9],
-        robust_projections: counts[10],
-    })
+    let mut counters = Counters::default();
+    let (all, entries) = (each(&mut counters), value.as_array()?);
+    if entries.len() != all.len() {
+        return None;
+    }
+    for (counter, entry) in all.into_iter().zip(entries) {
+        *counter = count(entry)?;
+    }
+    Some(counters)
 }

@@ -20,6 +20,7 @@ pub use sliders::Sliders;
 
 use crate::column::{Column, header};
 use crate::error::CommandError;
+use crate::files::is_of;
 use crate::output::replace;
 use bricard_driver::WORDS;
 use bricard_runtime::Structure;
@@ -28,8 +29,7 @@ use template::page;
 
 /// Whether a file of this name is a page.
 pub fn is_page(path: &Path) -> bool {
-    path.extension()
-        .is_some_and(|kind| kind.eq_ignore_ascii_case("html"))
+    is_of(path, &["html"])
 }
 
 /// The columns that a page shows: those that are wanted, and what every run has that costs

@@ -26,7 +26,7 @@ const LOOK: f64 = 20.0;
 ///
 /// # Errors
 ///
-/// [`CommandError`]: a mechanism that passes no singular position, a run that failed,
+/// [`CommandError`]: a mechanism that passes no singular position, a run that CommandError::run,
 /// a placement that is worse than it may be.
 pub fn passage(arguments: &Passage) -> Result<(), CommandError> {
     let mut rows = Vec::new();
@@ -87,7 +87,7 @@ fn placed(
         places: places(method.into(), step),
         span: SPAN,
     };
-    let exact = precise.path(&around).map_err(failed)?;
+    let exact = precise.path(&around).map_err(CommandError::run)?;
     let mut errors = Vec::new();
     for row in &exact.rows {
         let Some(end) = row_at(&exact, row[0] + SPAN) else {
@@ -95,11 +95,13 @@ fn placed(
         };
         let mut options = Options::new(end[0], method.into(), StepControl::Fixed { step });
         options.audit = Audit::NONE;
-        let run = mechanism.timed_run(Some(row), &options).map_err(failed)?;
+        let run = mechanism
+            .timed_run(Some(row), &options)
+            .map_err(CommandError::run)?;
         let differences = run.end.iter().zip(&end[1..]).map(|(a, b)| a - b);
         errors.push((largest(differences), ()));
     }
-    let too_near = || failed("it begins too near the singular position".to_string());
+    let too_near = || CommandError::run("it begins too near the singular position".to_string());
     Placements::of(errors).ok_or_else(too_near)
 }
 
@@ -140,15 +142,8 @@ fn first_passage(name: &str, mechanism: &dyn AnyMechanism) -> Result<f64, Comman
     let report = run(mechanism, &plan, &mut Vec::new()).map_err(|stopped| stopped.error)?;
     match report.passages.first() {
         Some(passage) => Ok(passage.t),
-        None => Err(failed(format!(
+        None => Err(CommandError::run(format!(
             "`{name}` passes no singular position in {LOOK} s"
         ))),
-    }
-}
-
-fn failed(reason: String) -> CommandError {
-    CommandError::Run {
-        reason,
-        kept: String::new(),
     }
 }

@@ -28,11 +28,6 @@ pub struct Stopped {
     pub resumable: bool,
 }
 
-fn failed(reason: String) -> CommandError {
-    let kept = String::new();
-    CommandError::Run { reason, kept }
-}
-
 /// What a start lacks, and how a guess is written here.
 fn with_guess(text: String) -> String {
     match text.contains("(`~`)") {
@@ -65,7 +60,7 @@ pub fn run(
         let reached = mechanism
             .segment(&segment, &mut watcher)
             .map_err(|text| Stopped {
-                error: failed(with_guess(text)),
+                error: CommandError::run(with_guess(text)),
                 time: None,
                 report: None,
                 resumable: writer
@@ -74,7 +69,7 @@ pub fn run(
             })?;
         report.add(&reached, structure);
         let time = reached.state.first().copied();
-        let stopped = reached.error.clone().map(failed);
+        let stopped = reached.error.clone().map(CommandError::run);
         let mut error = stopped.or_else(|| watcher.refused.take());
         if error.is_none() {
             let more = segment.short && time < Some(plan.options.until);

@@ -32,9 +32,7 @@ impl<'a> Watcher<'a> {
     /// Breaks the run off if Ctrl-C was pressed.
     fn listen(&mut self) -> ControlFlow<()> {
         match interrupt::is_wanted() {
-            true => self.refuse(CommandError::Interrupted {
-                kept: String::new(),
-            }),
+            true => self.refuse(CommandError::interrupted()),
             false => ControlFlow::Continue(()),
         }
     }

@@ -4,6 +4,7 @@
 //! Out: a GIF; an SVG, PNG or PDF with a few of its frames.
 
 use crate::error::CommandError;
+use crate::files::is_of;
 use crate::output::replace;
 use crate::plot::{Frame, Shape, Sheet, film_as_svg, frames_as_svg};
 use crate::raster::{self, pixels};
@@ -32,12 +33,6 @@ const DETAIL: f32 = 1.5;
 /// How closely colours are matched: 1 is best, 30 fastest.
 const MATCHING: i32 = 10;
 
-/// Whether a file of this name is a moving picture.
-fn moves(path: &Path) -> bool {
-    path.extension()
-        .is_some_and(|kind| kind.eq_ignore_ascii_case("gif"))
-}
-
 /// Draws a film of rows that are not empty.
 ///
 /// # Errors
@@ -60,7 +55,7 @@ pub fn film(
         mechanism.scene(&rows).map_err(failed)
     };
     let (begin, end) = (time(rows.first()), time(rows.last()));
-    if moves(path) {
+    if is_of(path, &["gif"]) {
         let count = (((end - begin) * RATE).ceil() as usize).clamp(2, MOST);
         let chosen = nearest(rows, spread(begin, end, count));
         let frames = moving(&chosen, &scene(&chosen)?);

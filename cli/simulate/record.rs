@@ -7,6 +7,7 @@ use crate::arguments::Simulate;
 use crate::checkpoint::{Checkpoint, Rows};
 use crate::column::{Column, header};
 use crate::error::CommandError;
+use crate::files::is_of;
 use crate::output::{probe, say};
 use crate::parquet;
 use crate::rows::{CsvWriter, RowWriter};
@@ -25,8 +26,7 @@ fn writer(path: Option<&Path>, header: &[String]) -> Result<Box<dyn RowWriter>, 
 
 /// Whether a file of this name holds Parquet.
 pub fn is_parquet(path: &Path) -> bool {
-    path.extension()
-        .is_some_and(|kind| kind.eq_ignore_ascii_case("parquet"))
+    is_of(path, &["parquet"])
 }
 
 /// Where the rows go.

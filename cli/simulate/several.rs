@@ -148,14 +148,13 @@ fn failed(mut done: Vec<Done>) -> Option<CommandError> {
         error => done.last_mut().map(|last| last.error = error),
     };
     let complaints: Vec<String> = done.iter().filter_map(Done::complaint).collect();
-    (!complaints.is_empty()).then(|| CommandError::Run {
-        reason: format!(
+    (!complaints.is_empty()).then(|| {
+        CommandError::run(format!(
             "{} of {} runs ended early\n{}",
             complaints.len(),
             done.len(),
             complaints.join("\n")
-        ),
-        kept: String::new(),
+        ))
     })
 }
 

@@ -19,9 +19,10 @@ pub fn exact(
     changes: &Changes,
     until: f64,
 ) -> Result<Exact, CommandError> {
-    let refuse = |reason: String| CommandError::Run {
-        reason: format!("the motion to compare with could not be computed: {reason}"),
-        kept: String::new(),
+    let refuse = |reason: String| {
+        CommandError::run(format!(
+            "the motion to compare with could not be computed: {reason}"
+        ))
     };
     let mut precise = open_precise(file, source)?;
     precise.exact(changes, until).map_err(refuse)

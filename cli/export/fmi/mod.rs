@@ -19,6 +19,7 @@ use crate::compiled::compiler::{command, output};
 use crate::compiled::{Library, generate, identity, library, module_of};
 use crate::description::{Description, wrong};
 use crate::error::CommandError;
+use crate::files::refuse;
 use crate::hash::hash;
 use crate::output::print;
 use bricard_codegen::internals::analyse;
@@ -44,10 +45,7 @@ pub fn export(
     let module = module_of(&subject.file);
     let path = out.map_or_else(|| PathBuf::from(format!("{module}.fmu")), Path::to_path_buf);
     if path.extension().is_none_or(|kind| kind != "fmu") {
-        return Err(CommandError::FileKind {
-            path,
-            instead: "an FMU is one file; write `--out NAME.fmu`",
-        });
+        return refuse(&path, "an FMU is one file; write `--out NAME.fmu`");
     }
     let files = files(subject, version, &module)?;
     archive::write(&path, &files)?;
