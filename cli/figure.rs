@@ -4,7 +4,7 @@
 //! Out: [`Panel`]s: coordinates by unit, then the added columns.
 
 use crate::column::Column;
-use crate::plot::{Panel, Scale, Series};
+use crate::plot::{Panel, Scale, Series, ends};
 use bricard_runtime::Structure;
 
 /// Curves in one panel, so that the legend fits beside it.
@@ -147,10 +147,8 @@ pub fn coordinates(structure: &Structure, rows: &[Vec<f64>]) -> Vec<Panel> {
 
 /// How far apart the least and the greatest finite value of a series are.
 fn span(series: &Series) -> f64 {
-    let finite = series.values.iter().filter(|value| value.is_finite());
-    let (low, high) = finite.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), y| {
-        (low.min(*y), high.max(*y))
-    });
+    let values = series.values.iter().copied();
+    let (low, high) = ends(values.filter(|value| value.is_finite()));
     high - low
 }
 

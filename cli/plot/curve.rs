@@ -63,6 +63,13 @@ pub fn curves(times: &[f64], series: &[Series], scale: Scale) -> (Vec<Curve>, (f
     (kept.into_iter().map(curve).collect(), range)
 }
 
+/// The least and the greatest of numbers; the first is above the other if there are none.
+pub fn ends(values: impl Iterator<Item = f64>) -> (f64, f64) {
+    values.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), y| {
+        (low.min(y), high.max(y))
+    })
+}
+
 /// Whether a number can be drawn.
 pub fn has_place(value: f64) -> bool {
     value.abs() <= LARGEST
@@ -80,10 +87,8 @@ fn place(value: f64, scale: Scale) -> f64 {
 /// The range that an axis should show: with a margin if it is linear, whole
 /// powers of ten if not.
 fn range(scaled: &[Vec<f64>], scale: Scale) -> (f64, f64) {
-    let values = scaled.iter().flatten().copied().filter(|y| y.is_finite());
-    let (low, high) = values.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), y| {
-        (low.min(y), high.max(y))
-    });
+    let values = scaled.iter().flatten().copied();
+    let (low, high) = ends(values.filter(|y| y.is_finite()));
     match scale {
         Scale::Linear | Scale::Whole if low > high => (0.0, 1.0),
         Scale::Whole => (low.floor() - 1.0, high.ceil() + 1.0),

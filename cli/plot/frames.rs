@@ -33,14 +33,26 @@ pub struct Frame {
 }
 
 impl Shape {
+    /// Its points.
+    pub fn points(&self) -> &[[f64; 2]] {
+        match self {
+            Self::Line(points) | Self::Polygon(points) => points,
+            Self::Circle(point, _) | Self::Trace(point) => std::slice::from_ref(point),
+        }
+    }
+
+    /// How far it reaches around its points.
+    pub fn radius(&self) -> f64 {
+        match self {
+            Self::Circle(_, radius) => radius.abs(),
+            _ => 0.0,
+        }
+    }
+
     /// Whether all of it can be drawn.
     fn has_place(&self) -> bool {
-        let placed = |point: &[f64; 2]| point.iter().all(|x| has_place(*x));
-        match self {
-            Self::Line(points) | Self::Polygon(points) => points.iter().all(placed),
-            Self::Circle(centre, radius) => placed(centre) && has_place(*radius),
-            Self::Trace(point) => placed(point),
-        }
+        let numbers = self.points().iter().flatten().copied();
+        numbers.chain([self.radius()]).all(has_place)
     }
 }
 
@@ -160,13 +172,8 @@ pub fn bounds_of<'a>(shapes: impl Iterator<Item = &'a Shape>) -> ([f64; 2], [f64
     };
     let all = shapes.filter(|shape| shape.has_place());
     for shape in all {
-        match shape {
-            Shape::Line(points) | Shape::Polygon(points) => {
-                points.iter().for_each(|point| include(*point, 0.0));
-            }
-            Shape::Circle(centre, radius) => include(*centre, radius.abs()),
-            Shape::Trace(point) => include(*point, 0.0),
-        }
+        let points = shape.points().iter();
+        points.for_each(|point| include(*point, shape.radius()));
     }
     let numbers = || corners.0.iter().chain(&corners.1);
     if !numbers().all(|x| x.is_finite()) {

@@ -17,6 +17,7 @@ mod sheet;
 mod style;
 mod work;
 
+pub use curve::ends;
 pub use frames::{Frame, Shape, film_as_svg, frames_as_svg};
 pub use moving::moving_svg;
 pub use panel::{Marks, Times, panels_as_svg};

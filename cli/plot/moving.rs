@@ -67,11 +67,8 @@ fn parts(frames: &[Vec<Shape>], pixel: impl Fn([f64; 2]) -> [f64; 2], scale: f64
     for place in 0..count {
         let all = || frames.iter().map(|frame| &frame[place]);
         let points = |shape: &Shape| -> Vec<[f64; 2]> {
-            let points: &[[f64; 2]] = match shape {
-                Shape::Line(points) | Shape::Polygon(points) => points,
-                Shape::Circle(point, _) | Shape::Trace(point) => std::slice::from_ref(point),
-            };
-            points.iter().map(|point| pixel(*point)).collect()
+            let points = shape.points().iter();
+            points.map(|point| pixel(*point)).collect()
         };
         let moved: Vec<Vec<[f64; 2]>> = all().map(points).collect();
         let first = |points: &Vec<[f64; 2]>| points.first().copied().unwrap_or_default();
@@ -84,11 +81,8 @@ fn parts(frames: &[Vec<Shape>], pixel: impl Fn([f64; 2]) -> [f64; 2], scale: f64
             }
             Some(Shape::Polygon(_)) => parts.push(Part::Plate(moved)),
             Some(Shape::Circle(..)) => {
-                let radius = |shape: &Shape| match shape {
-                    Shape::Circle(_, radius) => radius.abs() * scale,
-                    _ => 0.0,
-                };
-                let circles = moved.iter().map(first).zip(all().map(radius));
+                let radii = all().map(|shape| shape.radius() * scale);
+                let circles = moved.iter().map(first).zip(radii);
                 parts.push(Part::Circle(circles.collect()));
             }
             Some(Shape::Trace(_)) => parts.push(Part::Path(moved.iter().map(first).collect())),

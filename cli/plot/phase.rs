@@ -2,7 +2,7 @@
 
 use super::Sheet;
 use super::axis::Axis;
-use super::curve::has_place;
+use super::curve::{ends, has_place};
 use super::legend::{self, Entry, Kind};
 use super::style::{DETAIL, GRID, INK, STROKE, TEXT, colour, letters};
 use crate::error::CommandError;
@@ -101,9 +101,7 @@ fn entries(portraits: &[Portrait]) -> Vec<Entry> {
 
 /// The range of values with a margin; not empty.
 fn range(values: impl Iterator<Item = f64>) -> (f64, f64) {
-    let (low, high) = values.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), x| {
-        (low.min(x), high.max(x))
-    });
+    let (low, high) = ends(values);
     if low > high {
         return (-1.0, 1.0);
     }

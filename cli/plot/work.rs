@@ -1,6 +1,7 @@
 //! Work-precision diagrams: time over error, both by powers of ten.
 
 use super::axis::power_of_ten;
+use super::curve::ends;
 use super::sheet::{Area, Drawn, Sheet, px};
 use super::style::{DETAIL, GRID, INK, STROKE, TEXT, colour, letters, level};
 use crate::error::CommandError;
@@ -79,10 +80,7 @@ pub fn work_diagram(path: &Path, title: &str, clouds: &[Cloud]) -> Result<String
 
 /// Powers of ten around all values.
 fn range(values: impl Iterator<Item = f64>) -> std::ops::Range<f64> {
-    let (mut low, mut high) = (f64::INFINITY, f64::NEG_INFINITY);
-    for value in values {
-        (low, high) = (low.min(value), high.max(value));
-    }
+    let (low, high) = ends(values);
     if low > high {
         return 0.0..1.0;
     }

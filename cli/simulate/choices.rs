@@ -116,13 +116,13 @@ fn check_numbers(arguments: &Simulate) -> Result<(), CommandError> {
         _ => Ok(()),
     };
     all([
-        not_before_the_start(arguments.until),
-        positive("--every", arguments.every),
-        positive("--step", arguments.step),
-        positive("--rtol", arguments.rtol),
-        below_one(arguments.rtol),
-        above_round_off(arguments.rtol),
-        positive("--atol", arguments.atol),
+        fits("--until", Some(arguments.until), NOT_NEGATIVE),
+        fits("--every", arguments.every, POSITIVE),
+        fits("--step", arguments.step, POSITIVE),
+        fits("--rtol", arguments.rtol, POSITIVE),
+        fits("--rtol", arguments.rtol, BELOW_ONE),
+        fits("--rtol", arguments.rtol, ABOVE_ROUND_OFF),
+        fits("--atol", arguments.atol, POSITIVE),
         useless("--rtol", arguments.rtol),
         useless("--atol", arguments.atol),
         keepable(arguments),
@@ -160,39 +160,32 @@ fn bounded(
     }
 }
 
-fn not_before_the_start(until: f64) -> Result<(), CommandError> {
-    match until < 0.0 {
-        true => out_of_range("--until", until, "zero or positive"),
-        false => Ok(()),
-    }
-}
+/// What is wanted of a number: in words, and whether one is otherwise.
+type Wanted = (&'static str, fn(f64) -> bool);
 
-fn positive(option: &'static str, value: Option<f64>) -> Result<(), CommandError> {
-    match value {
-        Some(value) if value <= 0.0 => out_of_range(option, value, "a positive number"),
-        _ => Ok(()),
-    }
-}
-
-fn below_one(relative: Option<f64>) -> Result<(), CommandError> {
-    let wanted = "less than 1, as the part of a value that may be wrong";
-    match relative {
-        Some(value) if value >= 1.0 => out_of_range("--rtol", value, wanted),
-        _ => Ok(()),
-    }
-}
-
-fn above_round_off(relative: Option<f64>) -> Result<(), CommandError> {
-    let is_less = |value: f64| {
+const NOT_NEGATIVE: Wanted = ("zero or positive", |value| value < 0.0);
+const POSITIVE: Wanted = ("a positive number", |value| value <= 0.0);
+const BELOW_ONE: Wanted = (
+    "less than 1, as the part of a value that may be wrong",
+    |value| value >= 1.0,
+);
+const ABOVE_ROUND_OFF: Wanted = (
+    "at least 2.3e-15, where the round-off of numbers begins",
+    |value| {
         let taken = Tolerance::<f64, 0>::uniform(value, 1.0);
-        matches!(taken, Err(IntegrateError::ToleranceTooSmall { .. }))
-    };
-    match relative {
-        Some(value) if value > 0.0 && is_less(value) => {
-            let wanted = "at least 2.3e-15, where the round-off of numbers begins";
-            out_of_range("--rtol", value, wanted)
-        }
-        _ => Ok(()),
+        value > 0.0 && matches!(taken, Err(IntegrateError::ToleranceTooSmall { .. }))
+    },
+);
+
+/// Refuses a number that is not as it is wanted.
+fn fits(
+    option: &'static str,
+    value: Option<f64>,
+    (wanted, is_wrong): Wanted,
+) -> Result<(), CommandError> {
+    match value.filter(|value| is_wrong(*value)) {
+        Some(value) => out_of_range(option, value, wanted),
+        None => Ok(()),
     }
 }
 
