@@ -58,6 +58,16 @@ impl Case {
         },
     };
 
+    /// A case with other parameters.
+    pub const fn with(self, what: &'static str, set: &'static [(&'static str, f64)]) -> Self {
+        Self { what, set, ..self }
+    }
+
+    /// A case with another start.
+    pub const fn begun(self, what: &'static str, hold: &'static [(&'static str, f64)]) -> Self {
+        Self { what, hold, ..self }
+    }
+
     /// How it is run.
     pub fn options(&self) -> Options<f64> {
         self.options_by(self.method, self.tolerance)

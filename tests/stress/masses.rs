@@ -25,86 +25,22 @@ const LOOP: Case = Case {
 
 /// The cases.
 pub const CASES: &[Case] = &[
-    Case {
-        what: "lower arm of 1e-8 kg",
-        set: &[("m2", 1e-8), ("J2", 1e-9)],
-        ..DOUBLE
-    },
-    Case {
-        what: "lower arm of 1e8 kg",
-        set: &[("m2", 1e8), ("J2", 1e7)],
-        ..DOUBLE
-    },
-    Case {
-        what: "upper arm of 1e-8 kg",
-        set: &[("m1", 1e-8), ("J1", 1e-9)],
-        ..DOUBLE
-    },
-    Case {
-        what: "upper arm of 1e8 kg",
-        set: &[("m1", 1e8), ("J1", 1e7)],
-        ..DOUBLE
-    },
-    Case {
-        what: "slider of 1e-8 kg",
-        set: &[("m3", 1e-8)],
-        ..CRANK
-    },
-    Case {
-        what: "slider of 1e8 kg",
-        set: &[("m3", 1e8)],
-        ..CRANK
-    },
-    Case {
-        what: "crank of 1e8 kg",
-        set: &[("m1", 1e8), ("J1", 1e7)],
-        ..CRANK
-    },
-    Case {
-        what: "coupler of 1e-8 kg",
-        set: &[("m2", 1e-8), ("J2", 2e-10)],
-        ..LOOP
-    },
-    Case {
-        what: "coupler of 1e-6 kg",
-        set: &[("m2", 1e-6), ("J2", 2e-8)],
-        ..LOOP
-    },
-    Case {
-        what: "coupler of 1e-4 kg",
-        set: &[("m2", 1e-4), ("J2", 2e-6)],
-        ..LOOP
-    },
-    Case {
-        what: "coupler of 1e4 kg",
-        set: &[("m2", 1e4), ("J2", 2e2)],
-        ..LOOP
-    },
-    Case {
-        what: "coupler of 1e6 kg",
-        set: &[("m2", 1e6), ("J2", 2e4)],
-        ..LOOP
-    },
-    Case {
-        what: "coupler of 1e8 kg",
-        set: &[("m2", 1e8), ("J2", 2e6)],
-        ..LOOP
-    },
-    Case {
-        what: "crank of 1e-8 kg",
-        set: &[("m1", 1e-8), ("J1", 2e-10)],
-        ..LOOP
-    },
-    Case {
-        what: "crank of 1e8 kg",
-        set: &[("m1", 1e8), ("J1", 2e6)],
-        ..LOOP
-    },
-    Case {
-        what: "rocker of 1e-8 kg",
-        set: &[("m3", 1e-8), ("J3", 2e-10)],
-        ..LOOP
-    },
+    DOUBLE.with("lower arm of 1e-8 kg", &[("m2", 1e-8), ("J2", 1e-9)]),
+    DOUBLE.with("lower arm of 1e8 kg", &[("m2", 1e8), ("J2", 1e7)]),
+    DOUBLE.with("upper arm of 1e-8 kg", &[("m1", 1e-8), ("J1", 1e-9)]),
+    DOUBLE.with("upper arm of 1e8 kg", &[("m1", 1e8), ("J1", 1e7)]),
+    CRANK.with("slider of 1e-8 kg", &[("m3", 1e-8)]),
+    CRANK.with("slider of 1e8 kg", &[("m3", 1e8)]),
+    CRANK.with("crank of 1e8 kg", &[("m1", 1e8), ("J1", 1e7)]),
+    LOOP.with("coupler of 1e-8 kg", &[("m2", 1e-8), ("J2", 2e-10)]),
+    LOOP.with("coupler of 1e-6 kg", &[("m2", 1e-6), ("J2", 2e-8)]),
+    LOOP.with("coupler of 1e-4 kg", &[("m2", 1e-4), ("J2", 2e-6)]),
+    LOOP.with("coupler of 1e4 kg", &[("m2", 1e4), ("J2", 2e2)]),
+    LOOP.with("coupler of 1e6 kg", &[("m2", 1e6), ("J2", 2e4)]),
+    LOOP.with("coupler of 1e8 kg", &[("m2", 1e8), ("J2", 2e6)]),
+    LOOP.with("crank of 1e-8 kg", &[("m1", 1e-8), ("J1", 2e-10)]),
+    LOOP.with("crank of 1e8 kg", &[("m1", 1e8), ("J1", 2e6)]),
+    LOOP.with("rocker of 1e-8 kg", &[("m3", 1e-8), ("J3", 2e-10)]),
     Case {
         what: "rocker of 1e8 kg",
         set: &[("m3", 1e8), ("J3", 2e6)],

@@ -53,66 +53,36 @@ const DEGENERATE: Case = Case {
 
 /// The cases.
 pub const CASES: &[Case] = &[
-    Case {
-        what: "all rods in line, to the last bit",
-        hold: &in_line(FRAC_PI_2),
-        ..BARS
-    },
-    Case {
-        what: "1e-3 rad before it",
-        hold: &in_line(FRAC_PI_2 - 1e-3),
-        ..BARS
-    },
-    Case {
-        what: "1e-6 rad before it",
-        hold: &in_line(FRAC_PI_2 - 1e-6),
-        ..BARS
-    },
-    Case {
-        what: "1e-9 rad before it",
-        hold: &in_line(FRAC_PI_2 - 1e-9),
-        ..BARS
-    },
-    Case {
-        what: "1e-12 rad before it",
-        hold: &in_line(FRAC_PI_2 - 1e-12),
-        ..BARS
-    },
-    Case {
-        what: "1e-9 rad behind it",
-        hold: &in_line(FRAC_PI_2 + 1e-9),
-        ..BARS
-    },
-    Case {
-        what: "slider–crank upright, turning",
-        hold: &[("q1", FRAC_PI_2), ("der(q1)", 3.0)],
-        ..CRANK
-    },
-    Case {
-        what: "slider–crank 1e-8 rad from upright, turning",
-        hold: &[("q1", FRAC_PI_2 - 1e-8), ("der(q1)", 3.0)],
-        ..CRANK
-    },
-    Case {
-        what: "slider–crank 1e-2 rad from upright, at rest",
-        hold: &[("q1", FRAC_PI_2 - 1e-2)],
-        ..CRANK
-    },
-    Case {
-        what: "slider–crank 1e-5 rad from upright, at rest",
-        hold: &[("q1", FRAC_PI_2 - 1e-5)],
-        ..CRANK
-    },
-    Case {
-        what: "a pendulum on its slider, 1e-2 rad from upright, at rest",
-        hold: &[("q1", FRAC_PI_2 - 1e-2)],
-        ..HUNG
-    },
-    Case {
-        what: "a pendulum on its slider, 1e-4 rad from upright, at rest",
-        hold: &[("q1", FRAC_PI_2 - 1e-4)],
-        ..HUNG
-    },
+    BARS.begun("all rods in line, to the last bit", &in_line(FRAC_PI_2)),
+    BARS.begun("1e-3 rad before it", &in_line(FRAC_PI_2 - 1e-3)),
+    BARS.begun("1e-6 rad before it", &in_line(FRAC_PI_2 - 1e-6)),
+    BARS.begun("1e-9 rad before it", &in_line(FRAC_PI_2 - 1e-9)),
+    BARS.begun("1e-12 rad before it", &in_line(FRAC_PI_2 - 1e-12)),
+    BARS.begun("1e-9 rad behind it", &in_line(FRAC_PI_2 + 1e-9)),
+    CRANK.begun(
+        "slider–crank upright, turning",
+        &[("q1", FRAC_PI_2), ("der(q1)", 3.0)],
+    ),
+    CRANK.begun(
+        "slider–crank 1e-8 rad from upright, turning",
+        &[("q1", FRAC_PI_2 - 1e-8), ("der(q1)", 3.0)],
+    ),
+    CRANK.begun(
+        "slider–crank 1e-2 rad from upright, at rest",
+        &[("q1", FRAC_PI_2 - 1e-2)],
+    ),
+    CRANK.begun(
+        "slider–crank 1e-5 rad from upright, at rest",
+        &[("q1", FRAC_PI_2 - 1e-5)],
+    ),
+    HUNG.begun(
+        "a pendulum on its slider, 1e-2 rad from upright, at rest",
+        &[("q1", FRAC_PI_2 - 1e-2)],
+    ),
+    HUNG.begun(
+        "a pendulum on its slider, 1e-4 rad from upright, at rest",
+        &[("q1", FRAC_PI_2 - 1e-4)],
+    ),
     Case {
         what: "a triangle closed to 1e-5 m, at rest",
         set: &[("L0", 1.15 - 1e-5)],
@@ -165,11 +135,7 @@ pub const CASES: &[Case] = &[
         ],
         ..CONTRARY
     },
-    Case {
-        what: "no mass of the coupler",
-        set: &[("m2", 0.0), ("J2", 0.0)],
-        ..DEGENERATE
-    },
+    DEGENERATE.with("no mass of the coupler", &[("m2", 0.0), ("J2", 0.0)]),
     Case {
         what: "no mass at all",
         set: &[
@@ -200,11 +166,7 @@ pub const CASES: &[Case] = &[
         },
         ..DEGENERATE
     },
-    Case {
-        what: "a crank of no length",
-        set: &[("L1", 0.0)],
-        ..DEGENERATE
-    },
+    DEGENERATE.with("a crank of no length", &[("L1", 0.0)]),
     Case {
         what: "a coupler of no length",
         mechanism: "slider_crank",
