@@ -1,29 +1,17 @@
 //! What a formula may contain where it stands.
 
-use super::{accept, refuse_saying, with};
+use super::{accept, refuse_each, refuse_saying, with};
 
 #[test]
 fn the_kinetic_energy_is_quadratic_in_the_velocities() {
-    refuse_saying(
-        &with("kinetic q*der(q)^2 + der(w)^3;"),
-        "1:86: error: the kinetic energy has to be quadratic",
-    );
-    refuse_saying(
-        &with("kinetic sin(der(q));"),
-        "has to be quadratic in the velocities",
-    );
-    refuse_saying(
-        &with("kinetic 1/der(q);"),
-        "has to be quadratic in the velocities",
-    );
-    refuse_saying(
-        &with("kinetic der(q)^1.5;"),
-        "has to be quadratic in the velocities",
-    );
-    refuse_saying(
-        &with("let v = der(q)^2; kinetic v*der(w);"),
-        "has to be quadratic in the velocities",
-    );
+    let table = "
+        kinetic q*der(q)^2 + der(w)^3; ⇒ 1:86: error: the kinetic energy has to be quadratic
+        kinetic sin(der(q)); ⇒ has to be quadratic in the velocities
+        kinetic 1/der(q); ⇒ has to be quadratic in the velocities
+        kinetic der(q)^1.5; ⇒ has to be quadratic in the velocities
+        let v = der(q)^2; kinetic v*der(w); ⇒ has to be quadratic in the velocities
+    ";
+    refuse_each(with, table);
 }
 
 #[test]
@@ -79,22 +67,13 @@ fn a_choice_between_known_numbers_is_smooth() {
 
 #[test]
 fn inputs_act_through_forces_alone() {
-    refuse_saying(
-        &with("input u = 1; kinetic u*der(q)^2;"),
-        "the kinetic energy can't contain an input",
-    );
-    refuse_saying(
-        &with("input u = 1; potential u*q;"),
-        "an input acts by `force u on x`",
-    );
-    refuse_saying(
-        &with("input u = 1; constraint q = u;"),
-        "a constraint can't contain an input",
-    );
-    refuse_saying(
-        &with("input u = 1; output y = der(u);"),
-        "the derivative of an input is not known",
-    );
+    let table = "
+        input u = 1; kinetic u*der(q)^2; ⇒ the kinetic energy can't contain an input
+        input u = 1; potential u*q; ⇒ an input acts by `force u on x`
+        input u = 1; constraint q = u; ⇒ a constraint can't contain an input
+        input u = 1; output y = der(u); ⇒ the derivative of an input is not known
+    ";
+    refuse_each(with, table);
     accept(&with(
         "input u = 1; dissipation u*der(q)^2; output y = u; event e: u rising;",
     ));
@@ -102,18 +81,12 @@ fn inputs_act_through_forces_alone() {
 
 #[test]
 fn constraints_are_linear_in_the_velocities() {
-    refuse_saying(
-        &with("constraint der(q)^2 = 1;"),
-        "linear in the velocities",
-    );
-    refuse_saying(
-        &with("constraint der(q)*der(w) = 1;"),
-        "linear in the velocities",
-    );
-    refuse_saying(
-        &with("constraint sin(der(q)) = 0;"),
-        "linear in the velocities",
-    );
+    let table = "
+        constraint der(q)^2 = 1; ⇒ linear in the velocities
+        constraint der(q)*der(w) = 1; ⇒ linear in the velocities
+        constraint sin(der(q)) = 0; ⇒ linear in the velocities
+    ";
+    refuse_each(with, table);
     accept(&with("constraint der(q)^2/der(q) = der(w);"));
 }
 
@@ -194,17 +167,14 @@ fn states_act_by_forces_alone() {
         let text = format!("state z; der(z) = 1 - z; force z on q; {statement}");
         refuse_saying(&with(&text), said);
     }
-    refuse_saying(&with("state z; force z on q;"), "the state `z` has no rate");
-    refuse_saying(
-        &with("param k: N = 1; state z: m; der(z) = k; force z on q;"),
-        "the rate of this state is in m/s, this is in N",
-    );
-    refuse_saying(
-        &with("state z; der(z) = [1, 2]; force z on q;"),
-        "this is a number, its rate a vector",
-    );
-    refuse_saying(&with("state z = 1;"), "a state has no value of its own");
-    refuse_saying(&with("der(z) + 1 = 2;"), "expected `=`");
+    let table = "
+        state z; force z on q; ⇒ the state `z` has no rate
+        param k: N = 1; state z: m; der(z) = k; force z on q; ⇒ the rate of this state is in m/s, this is in N
+        state z; der(z) = [1, 2]; force z on q; ⇒ this is a number, its rate a vector
+        state z = 1; ⇒ a state has no value of its own
+        der(z) + 1 = 2; ⇒ expected `=`
+    ";
+    refuse_each(with, table);
 }
 
 #[test]
@@ -221,27 +191,15 @@ fn states_stand_in_arrays_loops_and_parts() {
 
 #[test]
 fn forces_work_on_what_moves() {
-    refuse_saying(
-        &with("force 1 on der(q);"),
-        "a force can't work on a velocity",
-    );
-    refuse_saying(
-        &with("param a = 1; force 1 on a;"),
-        "this force does no work",
-    );
-    refuse_saying(
-        &with("input u = 1; force 1 on u*q;"),
-        "a force can't work on an input",
-    );
-    refuse_saying(&with("force 1 on abs(q);"), "has to be differentiable");
-    refuse_saying(
-        &with("force 1 on [q, w];"),
-        "the force is a number, it works on a vector of 2 components",
-    );
-    refuse_saying(
-        &with("force rotz(q) on rotz(w);"),
-        "the force is a 3 × 3 matrix",
-    );
+    let table = "
+        force 1 on der(q); ⇒ a force can't work on a velocity
+        param a = 1; force 1 on a; ⇒ this force does no work
+        input u = 1; force 1 on u*q; ⇒ a force can't work on an input
+        force 1 on abs(q); ⇒ has to be differentiable
+        force 1 on [q, w]; ⇒ the force is a number, it works on a vector of 2 components
+        force rotz(q) on rotz(w); ⇒ the force is a 3 × 3 matrix
+    ";
+    refuse_each(with, table);
 }
 
 #[test]
@@ -254,49 +212,40 @@ fn dissipation_needs_a_velocity() {
 
 #[test]
 fn what_is_not_finite_is_refused() {
-    refuse_saying(&with("let a = 1/0;"), "division by zero");
-    refuse_saying(&with("let a = q/(w - w);"), "division by zero");
-    refuse_saying(&with("const N = 0; let a = q/N;"), "division by zero");
-    refuse_saying(&with("let a = 0^-1;"), "a negative power of zero");
-    refuse_saying(
-        &with("let a = sqrt(-1);"),
-        "`sqrt` has no finite value at -1",
-    );
-    refuse_saying(&with("let a = ln(0)*q;"), "`ln` has no finite value at 0");
-    refuse_saying(&with("let a = asin(2);"), "`asin` has no finite value at 2");
-    refuse_saying(&with("let a = (-8)^(1/3);"), "this is not a real number");
-    refuse_saying(&with("let a = 1e300*1e300;"), "this is not a finite number");
-    refuse_saying(
-        &with("let a = 1e300*q*1e300;"),
-        "this is not a finite number",
-    );
-    refuse_saying(
-        &with("let a = exp(1e3);"),
-        "`exp` has no finite value at 1000",
-    );
+    let table = "
+        let a = 1/0; ⇒ division by zero
+        let a = q/(w - w); ⇒ division by zero
+        const N = 0; let a = q/N; ⇒ division by zero
+        let a = 0^-1; ⇒ a negative power of zero
+        let a = sqrt(-1); ⇒ `sqrt` has no finite value at -1
+        let a = ln(0)*q; ⇒ `ln` has no finite value at 0
+        let a = asin(2); ⇒ `asin` has no finite value at 2
+        let a = (-8)^(1/3); ⇒ this is not a real number
+        let a = 1e300*1e300; ⇒ this is not a finite number
+        let a = 1e300*q*1e300; ⇒ this is not a finite number
+        let a = exp(1e3); ⇒ `exp` has no finite value at 1000
+    ";
+    refuse_each(with, table);
 }
 
 #[test]
 fn huge_numbers_and_exponents_are_refused() {
-    refuse_saying(&with("let a = 1e999;"), "`1e999` is too large or too small");
-    refuse_saying(&with("let a = 1e-999;"), "is too large or too small");
-    refuse_saying(
-        &with("let a = 1e99999999999999;"),
-        "is too large or too small",
-    );
+    let table = "
+        let a = 1e999; ⇒ `1e999` is too large or too small
+        let a = 1e-999; ⇒ is too large or too small
+        let a = 1e99999999999999; ⇒ is too large or too small
+    ";
+    refuse_each(with, table);
     refuse_saying(
         &with(&format!("let a = 1{};", "0".repeat(400))),
         "is too large or too small",
     );
-    refuse_saying(&with("let a = q^1001;"), "an exponent above 1000");
-    refuse_saying(
-        &with("let a = ((q^1000)^1000)^1000;"),
-        "a power above 1000000",
-    );
-    refuse_saying(
-        &with("let a = q^1000; let b = a^1000; let c = b*b;"),
-        "a power above 1000000",
-    );
+    let table = "
+        let a = q^1001; ⇒ an exponent above 1000
+        let a = ((q^1000)^1000)^1000; ⇒ a power above 1000000
+        let a = q^1000; let b = a^1000; let c = b*b; ⇒ a power above 1000000
+    ";
+    refuse_each(with, table);
     accept(&with(
         "let a = 1e-300*q; let b = 123456789012345678901234567890*q; output c = a + b;",
     ));

@@ -72,6 +72,15 @@ fn refuse_saying(source: &str, words: &str) {
     assert!(message.contains(words), "no `{words}` in\n{message}");
 }
 
+/// Refuses each of some statements with a message that contains some words: in each line of a
+/// table the statements, `⇒`, the words.
+fn refuse_each(with: fn(&str) -> String, table: &str) {
+    for line in table.trim().lines() {
+        let (statements, words) = line.split_once(" ⇒ ").expect("a line has both");
+        refuse_saying(&with(statements.trim()), words);
+    }
+}
+
 /// The warnings about a description that is right, rendered.
 fn warnings(source: &str) -> String {
     match analyse(source, &CompileSettings::default()) {

@@ -1,6 +1,9 @@
 //! Names: what they mean, in which order, and what was probably meant.
 
-use super::{accept, assert_close, output, refuse, refuse_saying, settings, value, warnings, with};
+use super::{
+    accept, assert_close, output, refuse, refuse_each, refuse_saying, settings, value, warnings,
+    with,
+};
 use bricard_codegen::internals::analyse;
 
 #[test]
@@ -21,15 +24,12 @@ fn a_long_chain_of_quantities_is_no_deep_recursion() {
 
 #[test]
 fn circles_are_refused_and_named() {
-    refuse_saying(
-        &with("let a = b; let b = c + 1; let c = a;"),
-        "`a`, `b`, `c` are defined by one another",
-    );
-    refuse_saying(&with("let a = a + 1;"), "`a` is defined by itself");
-    refuse_saying(
-        &with("const a = b; const b = a;"),
-        "`a`, `b` are defined by one another",
-    );
+    let table = "
+        let a = b; let b = c + 1; let c = a; ⇒ `a`, `b`, `c` are defined by one another
+        let a = a + 1; ⇒ `a` is defined by itself
+        const a = b; const b = a; ⇒ `a`, `b` are defined by one another
+    ";
+    refuse_each(with, table);
     assert_eq!(
         refuse(&with("let a = b; let b = a; let c = a + b; output y = c;")).error_count(),
         1
@@ -38,22 +38,19 @@ fn circles_are_refused_and_named() {
 
 #[test]
 fn a_name_is_declared_once() {
-    refuse_saying(&with("param q = 1;"), "`q` is declared twice");
-    refuse_saying(&with("let a = 1; input a = 0;"), "`a` is declared twice");
-    refuse_saying(&with("let t = 1;"), "`t` is the time already");
-    refuse_saying(&with("for q in 0..2 { }"), "`q` is declared twice");
-    refuse_saying(&with("let a = sum(w in 0..2, w);"), "`w` is declared twice");
-    refuse_saying(
-        &with("output y = 1; output y = 2;"),
-        "`y` is declared twice",
-    );
-    refuse_saying(&with("output q = 1;"), "`q` is declared twice");
-    refuse_saying(
-        &with("event e: q rising; event e: w rising;"),
-        "`e` is declared twice",
-    );
-    refuse_saying(&with("let if = 1;"), "a word of the language");
-    refuse_saying(&with("let self = 1;"), "`self` can't be a name");
+    let table = "
+        param q = 1; ⇒ `q` is declared twice
+        let a = 1; input a = 0; ⇒ `a` is declared twice
+        let t = 1; ⇒ `t` is the time already
+        for q in 0..2 { } ⇒ `q` is declared twice
+        let a = sum(w in 0..2, w); ⇒ `w` is declared twice
+        output y = 1; output y = 2; ⇒ `y` is declared twice
+        output q = 1; ⇒ `q` is declared twice
+        event e: q rising; event e: w rising; ⇒ `e` is declared twice
+        let if = 1; ⇒ a word of the language
+        let self = 1; ⇒ `self` can't be a name
+    ";
+    refuse_each(with, table);
 }
 
 #[test]
@@ -64,19 +61,16 @@ fn outputs_and_events_may_have_the_names_of_other_things() {
 
 #[test]
 fn the_nearest_name_is_suggested() {
-    refuse_saying(
-        &with("param stiffness = 1; let a = stifness;"),
-        "did you mean `stiffness`?",
-    );
-    refuse_saying(&with("let a = sinn(q);"), "did you mean `sin`?");
-    refuse_saying(&with("let a = arctan(q);"), "write `atan(x)`");
-    refuse_saying(&with("let a = q(w + 1);"), "a product is written `q*(…)`");
-    refuse_saying(&with("let a = sin + 1;"), "write `sin(…)`");
-    refuse_saying(
-        &with("let a = velocity;"),
-        "declare it, for example `param velocity = 1;`, or `coord velocity;` if it moves",
-    );
-    refuse_saying(&with("let a = phi;"), "declare it, for example `param phi");
+    let table = "
+        param stiffness = 1; let a = stifness; ⇒ did you mean `stiffness`?
+        let a = sinn(q); ⇒ did you mean `sin`?
+        let a = arctan(q); ⇒ write `atan(x)`
+        let a = q(w + 1); ⇒ a product is written `q*(…)`
+        let a = sin + 1; ⇒ write `sin(…)`
+        let a = velocity; ⇒ declare it, for example `param velocity = 1;`, or `coord velocity;` if it moves
+        let a = phi; ⇒ declare it, for example `param phi
+    ";
+    refuse_each(with, table);
     refuse_saying(
         "mechanism M { coord q: metre; kinetic der(q)^2; }",
         "unknown unit `metre`",
@@ -85,20 +79,14 @@ fn the_nearest_name_is_suggested() {
 
 #[test]
 fn constants_and_defaults_are_built_of_constants() {
-    refuse_saying(
-        &with("param a = 1; const b = a;"),
-        "a constant is built of numbers and constants; `a` is a parameter",
-    );
-    refuse_saying(
-        &with("param a = 1; param b = a;"),
-        "the default of a parameter is built of",
-    );
-    refuse_saying(&with("const a = t;"), "can't depend on the time");
-    refuse_saying(&with("param a = q;"), "`q` is a coordinate");
-    refuse_saying(
-        &with("param K = 2; coord p[K];"),
-        "the size of an array is built of",
-    );
+    let table = "
+        param a = 1; const b = a; ⇒ a constant is built of numbers and constants; `a` is a parameter
+        param a = 1; param b = a; ⇒ the default of a parameter is built of
+        const a = t; ⇒ can't depend on the time
+        param a = q; ⇒ `q` is a coordinate
+        param K = 2; coord p[K]; ⇒ the size of an array is built of
+    ";
+    refuse_each(with, table);
     let m = accept(&with(
         "const a = 2; param b = sqrt(a)*sin(30*deg); output y = b;",
     ));

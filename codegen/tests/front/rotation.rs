@@ -1,6 +1,6 @@
 //! Rotations and their angular velocity, against numbers.
 
-use super::{accept, assert_close, output, refuse_saying, with};
+use super::{accept, assert_close, output, refuse_each, refuse_saying, with};
 use bricard_codegen::internals::expr::Symbol;
 use bricard_codegen::internals::model::Mechanism;
 
@@ -156,22 +156,13 @@ fn a_rotation_about_one_axis_has_a_plain_angular_velocity() {
 
 #[test]
 fn omega_and_rotations_refuse_what_they_are_not_for() {
-    refuse_saying(
-        &with("let a = omega([[1, 0, 0], [0, 1, 0]]);"),
-        "takes a 2 × 2 or a 3 × 3 matrix",
-    );
-    refuse_saying(
-        &with("let a = omega(rotz(der(q))); force a.z on q;"),
-        "a force can't contain an acceleration",
-    );
-    refuse_saying(
-        &with("let a = quat(1, 0, 0);"),
-        "takes 4 arguments, here are 3",
-    );
-    refuse_saying(
-        &with("let a = rotz([q, w]);"),
-        "the angle of a rotation has to be a number",
-    );
+    let table = "
+        let a = omega([[1, 0, 0], [0, 1, 0]]); ⇒ takes a 2 × 2 or a 3 × 3 matrix
+        let a = omega(rotz(der(q))); force a.z on q; ⇒ a force can't contain an acceleration
+        let a = quat(1, 0, 0); ⇒ takes 4 arguments, here are 3
+        let a = rotz([q, w]); ⇒ the angle of a rotation has to be a number
+    ";
+    refuse_each(with, table);
 }
 
 #[test]

@@ -1,6 +1,6 @@
 //! Scalars, vectors, matrices and arrays.
 
-use super::{accept, assert_close, output, refuse_saying, value, with};
+use super::{accept, assert_close, output, refuse_each, refuse_saying, value, with};
 
 const Q: f64 = 0.51;
 const W: f64 = 0.80;
@@ -41,38 +41,23 @@ fn matrices_multiply_rows_by_columns() {
 
 #[test]
 fn shapes_that_do_not_fit_are_refused() {
-    refuse_saying(&with("let v = [q, w] + 1;"), "this is a number");
-    refuse_saying(
-        &with("let v = [q, w] + [1, 2, 3];"),
-        "a vector of 3 components",
-    );
-    refuse_saying(
-        &with("let v = [q, w]*[1, 2];"),
-        "write `dot(a, b)` or `cross(a, b)`",
-    );
-    refuse_saying(&with("let v = 1/[1, 2];"), "only a number can divide");
-    refuse_saying(
-        &with("let v = sin([q, w]);"),
-        "the argument of `sin` has to be a number",
-    );
-    refuse_saying(&with("let v = [q];"), "two to four components");
-    refuse_saying(&with("let v = [[q, 1], 2];"), "rows of one length");
-    refuse_saying(&with("let v = [q, w].z;"), "has no `.z`");
-    refuse_saying(&with("let v = q.x;"), "a number has no components");
-    refuse_saying(&with("let v = [q, w]^2;"), "norm2(v)");
-    refuse_saying(&with("let v = [1, 2]*rotz(q);"), "write `transpose(R)*v`");
-    refuse_saying(
-        &with("let v = rotz(q)*[1, 2];"),
-        "as many columns as what stands behind it has rows",
-    );
-    refuse_saying(
-        &with("constraint [q, w] = [1, 2, 3];"),
-        "both sides are numbers",
-    );
-    refuse_saying(
-        &with("let v = if q < 1 then [1, 2] else 3;"),
-        "the other a number",
-    );
+    let table = "
+        let v = [q, w] + 1; ⇒ this is a number
+        let v = [q, w] + [1, 2, 3]; ⇒ a vector of 3 components
+        let v = [q, w]*[1, 2]; ⇒ write `dot(a, b)` or `cross(a, b)`
+        let v = 1/[1, 2]; ⇒ only a number can divide
+        let v = sin([q, w]); ⇒ the argument of `sin` has to be a number
+        let v = [q]; ⇒ two to four components
+        let v = [[q, 1], 2]; ⇒ rows of one length
+        let v = [q, w].z; ⇒ has no `.z`
+        let v = q.x; ⇒ a number has no components
+        let v = [q, w]^2; ⇒ norm2(v)
+        let v = [1, 2]*rotz(q); ⇒ write `transpose(R)*v`
+        let v = rotz(q)*[1, 2]; ⇒ as many columns as what stands behind it has rows
+        constraint [q, w] = [1, 2, 3]; ⇒ both sides are numbers
+        let v = if q < 1 then [1, 2] else 3; ⇒ the other a number
+    ";
+    refuse_each(with, table);
 }
 
 #[test]
@@ -103,39 +88,21 @@ fn the_elements_of_a_let_array_may_use_those_before_them() {
 
 #[test]
 fn indices_are_whole_numbers_in_range() {
-    refuse_saying(
-        &with("coord p[3]; let a = p[3];"),
-        "an array of 3 has the indices 0 to 2",
-    );
-    refuse_saying(
-        &with("coord p[3]; let a = p[-1];"),
-        "index -1 is out of range",
-    );
-    refuse_saying(&with("coord p[3]; let a = p[1/2];"), "this is 0.5");
-    refuse_saying(
-        &with("coord p[3]; let a = p[q];"),
-        "known when the code is generated",
-    );
-    refuse_saying(
-        &with("let p[i in 0..3] = [q, i]; let a = 2*p;"),
-        "a whole array can't stand in a calculation",
-    );
-    refuse_saying(
-        &with("let p[i in 1..3] = i*q; let a = 2*p;"),
-        "a whole array can't stand in a calculation",
-    );
-    refuse_saying(
-        &with("let p[i in 0..3] = norm2(p);"),
-        "`norm2` takes a vector, this is an array of 3",
-    );
-    refuse_saying(
-        &with("coord p[1]; let a = cross(p, p);"),
-        "`cross` takes two",
-    );
-    refuse_saying(&with("coord p[0];"), "an array can't have 0 coordinates");
-    refuse_saying(&with("coord p[100000];"), "more than 10000 coordinates");
-    refuse_saying(&with("let a[i in 0..0] = 1;"), "has no elements");
-    refuse_saying(&with("let a = q[0];"), "a number has no elements");
+    let table = "
+        coord p[3]; let a = p[3]; ⇒ an array of 3 has the indices 0 to 2
+        coord p[3]; let a = p[-1]; ⇒ index -1 is out of range
+        coord p[3]; let a = p[1/2]; ⇒ this is 0.5
+        coord p[3]; let a = p[q]; ⇒ known when the code is generated
+        let p[i in 0..3] = [q, i]; let a = 2*p; ⇒ a whole array can't stand in a calculation
+        let p[i in 1..3] = i*q; let a = 2*p; ⇒ a whole array can't stand in a calculation
+        let p[i in 0..3] = norm2(p); ⇒ `norm2` takes a vector, this is an array of 3
+        coord p[1]; let a = cross(p, p); ⇒ `cross` takes two
+        coord p[0]; ⇒ an array can't have 0 coordinates
+        coord p[100000]; ⇒ more than 10000 coordinates
+        let a[i in 0..0] = 1; ⇒ has no elements
+        let a = q[0]; ⇒ a number has no elements
+    ";
+    refuse_each(with, table);
 }
 
 #[test]
@@ -167,10 +134,10 @@ fn four_components_and_arrays_of_numbers_have_lengths_and_products() {
         (0..4).map(|i| (i as f64 + 1.0) * e(i)).sum(),
     );
     assert_close(output(&m, "d[3]"), e(3));
-    refuse_saying(
-        &with("let a = cross([q, w, 1, 2], [1, 2, 3, 4]);"),
-        "two or three components",
-    );
-    refuse_saying(&with("let a = [1, 2, 3, 4, 5];"), "here are 5");
-    refuse_saying(&with("draw trace([1, 2, 3, 4]);"), "a point is written");
+    let table = "
+        let a = cross([q, w, 1, 2], [1, 2, 3, 4]); ⇒ two or three components
+        let a = [1, 2, 3, 4, 5]; ⇒ here are 5
+        draw trace([1, 2, 3, 4]); ⇒ a point is written
+    ";
+    refuse_each(with, table);
 }

@@ -1,6 +1,6 @@
 //! What statements become in the mechanism.
 
-use super::{accept, assert_close, output, refuse_saying, state, warnings, with};
+use super::{accept, assert_close, output, refuse_each, refuse_saying, state, warnings, with};
 use bricard_codegen::internals::model::{Direction, Shape};
 
 #[test]
@@ -120,27 +120,15 @@ fn start_entries_hold_or_guess_coordinates_and_velocities() {
 
 #[test]
 fn start_entries_that_make_no_sense_are_refused() {
-    refuse_saying(
-        &with("start { q = 1; q ~ 2; }"),
-        "this has a start value already",
-    );
-    refuse_saying(
-        &with("start { q = w; }"),
-        "built of numbers, constants and parameters",
-    );
-    refuse_saying(
-        &with("start { q = t; }"),
-        "built of numbers, constants and parameters",
-    );
-    refuse_saying(
-        &with("param a = 1; start { a = 1; }"),
-        "only coordinates, velocities, states and formulas",
-    );
-    refuse_saying(
-        &with("coord p[2]; start { p = 1; }"),
-        "its start value a number",
-    );
-    refuse_saying(&with("start { q == 1; }"), "expected `=` or `~`");
+    let table = "
+        start { q = 1; q ~ 2; } ⇒ this has a start value already
+        start { q = w; } ⇒ built of numbers, constants and parameters
+        start { q = t; } ⇒ built of numbers, constants and parameters
+        param a = 1; start { a = 1; } ⇒ only coordinates, velocities, states and formulas
+        coord p[2]; start { p = 1; } ⇒ its start value a number
+        start { q == 1; } ⇒ expected `=` or `~`
+    ";
+    refuse_each(with, table);
 }
 
 #[test]
@@ -186,26 +174,14 @@ fn the_picture_is_made_of_points_in_space() {
     );
     assert!(matches!(&m.shapes[2], Shape::Polygon(points) if points.len() == 3));
     assert!(matches!(&m.shapes[3], Shape::Trace(p) if m.graph.is_zero(p[2])));
-    refuse_saying(
-        &with("draw line([0, 0]);"),
-        "a line has two or more points, here is one",
-    );
-    refuse_saying(
-        &with("draw circle([0, 0]);"),
-        "a circle has a centre and a radius",
-    );
-    refuse_saying(
-        &with("draw trace([q, w], [0, 0]);"),
-        "a trace has one point, here are 2",
-    );
-    refuse_saying(
-        &with("draw line(q, w);"),
-        "a point is written `[x, y]` or `[x, y, z]`",
-    );
-    refuse_saying(
-        &with("draw trace([der(q), 0]);"),
-        "a picture shows positions",
-    );
+    let table = "
+        draw line([0, 0]); ⇒ a line has two or more points, here is one
+        draw circle([0, 0]); ⇒ a circle has a centre and a radius
+        draw trace([q, w], [0, 0]); ⇒ a trace has one point, here are 2
+        draw line(q, w); ⇒ a point is written `[x, y]` or `[x, y, z]`
+        draw trace([der(q), 0]); ⇒ a picture shows positions
+    ";
+    refuse_each(with, table);
 }
 
 #[test]

@@ -1,6 +1,6 @@
 //! Units where they are given.
 
-use super::{accept, refuse_saying};
+use super::{accept, refuse_each, refuse_saying};
 
 /// A slider and a crank with units, and more statements.
 fn with(statements: &str) -> String {
@@ -14,13 +14,13 @@ fn with(statements: &str) -> String {
 
 #[test]
 fn sums_have_one_unit() {
-    refuse_saying(&with("let a = L + m;"), "this sum mixes m and kg");
-    refuse_saying(&with("let a = 2*L - J/m;"), "this sum mixes m and m^2");
-    refuse_saying(
-        &with("let a = [L, L] + [x, phi];"),
-        "this sum mixes m and no unit",
-    );
-    refuse_saying(&with("let a = L + phi;"), "this is in m");
+    let table = "
+        let a = L + m; ⇒ this sum mixes m and kg
+        let a = 2*L - J/m; ⇒ this sum mixes m and m^2
+        let a = [L, L] + [x, phi]; ⇒ this sum mixes m and no unit
+        let a = L + phi; ⇒ this is in m
+    ";
+    refuse_each(with, table);
     accept(&with(
         "let a = L + x - 0.1 + sqrt(J/m) + L*cos(phi) + norm([L, x]); output b: m = a;",
     ));
@@ -45,24 +45,18 @@ fn a_unit_of_several_that_are_not_si_is_written_anew_as_a_whole() {
 
 #[test]
 fn functions_take_angles_and_ratios() {
-    refuse_saying(&with("let a = sin(L);"), "the argument of `sin` is in m");
-    refuse_saying(&with("let a = exp(m*g);"), "the argument of `exp` is in N");
-    refuse_saying(&with("let a = rotz(x);"), "the angle of a rotation is in m");
-    refuse_saying(
-        &with("let a = L^phi;"),
-        "the exponent of what has a unit is a number",
-    );
-    refuse_saying(&with("let a = 2^L;"), "an exponent has no unit");
-    refuse_saying(&with("let a = atan2(L, m);"), "`atan2` mixes m and kg");
-    refuse_saying(&with("let a = max(L, m);"), "`max` mixes m and kg");
-    refuse_saying(
-        &with("output a = if L < m then 1 else 2;"),
-        "this comparison mixes m and kg",
-    );
-    refuse_saying(
-        &with("output a = if L < x then L else m;"),
-        "this choice mixes m and kg",
-    );
+    let table = "
+        let a = sin(L); ⇒ the argument of `sin` is in m
+        let a = exp(m*g); ⇒ the argument of `exp` is in N
+        let a = rotz(x); ⇒ the angle of a rotation is in m
+        let a = L^phi; ⇒ the exponent of what has a unit is a number
+        let a = 2^L; ⇒ an exponent has no unit
+        let a = atan2(L, m); ⇒ `atan2` mixes m and kg
+        let a = max(L, m); ⇒ `max` mixes m and kg
+        output a = if L < m then 1 else 2; ⇒ this comparison mixes m and kg
+        output a = if L < x then L else m; ⇒ this choice mixes m and kg
+    ";
+    refuse_each(with, table);
     accept(&with(
         "output a: rad = atan2(x, L) + asin(x/L) + 45*deg; output b = sin(2*t) + cos(phi + pi/4);",
     ));
@@ -70,18 +64,12 @@ fn functions_take_angles_and_ratios() {
 
 #[test]
 fn energies_are_in_joules_and_dissipation_in_watts() {
-    refuse_saying(
-        &with("kinetic m*der(x);"),
-        "the kinetic energy is in J, this is in N*s",
-    );
-    refuse_saying(
-        &with("potential m*g;"),
-        "the potential energy is in J, this is in N",
-    );
-    refuse_saying(
-        &with("dissipation c*der(x);"),
-        "the dissipation function is in W, this is in N",
-    );
+    let table = "
+        kinetic m*der(x); ⇒ the kinetic energy is in J, this is in N*s
+        potential m*g; ⇒ the potential energy is in J, this is in N
+        dissipation c*der(x); ⇒ the dissipation function is in W, this is in N
+    ";
+    refuse_each(with, table);
     accept(&with(
         "potential m*g*x + 1/2*k*(x - 0.3)^2; dissipation 1/2*c*der(x)^2;",
     ));
@@ -89,18 +77,12 @@ fn energies_are_in_joules_and_dissipation_in_watts() {
 
 #[test]
 fn forces_fit_what_they_work_on() {
-    refuse_saying(
-        &with("force k on x;"),
-        "this force is in N/m, here it has to be in N",
-    );
-    refuse_saying(
-        &with("force m*g on phi;"),
-        "this force is in N, here it has to be in N*m",
-    );
-    refuse_saying(
-        &with("force [m*g, m] on [x, L];"),
-        "this force is in kg, here it has to be in N",
-    );
+    let table = "
+        force k on x; ⇒ this force is in N/m, here it has to be in N
+        force m*g on phi; ⇒ this force is in N, here it has to be in N*m
+        force [m*g, m] on [x, L]; ⇒ this force is in kg, here it has to be in N
+    ";
+    refuse_each(with, table);
     accept(&with(
         "force m*g on x; force m*g*L on phi; force [0, -m*g] on [x, L*sin(phi)]; force 3 on x;",
     ));
@@ -108,34 +90,16 @@ fn forces_fit_what_they_work_on() {
 
 #[test]
 fn both_sides_of_an_equation_have_one_unit() {
-    refuse_saying(
-        &with("constraint x = phi;"),
-        "this equation mixes m and no unit",
-    );
-    refuse_saying(
-        &with("constraint der(x) = x;"),
-        "this equation mixes m/s and m",
-    );
-    refuse_saying(
-        &with("start { x = 45*deg; }"),
-        "this equation mixes m and no unit",
-    );
-    refuse_saying(
-        &with("param a: m = m*2;"),
-        "the default of a parameter is built of",
-    );
-    refuse_saying(
-        &with("const a: m = g;"),
-        "`a` is declared in m, its value is in m/s^2",
-    );
-    refuse_saying(
-        &with("output a: m = phi;"),
-        "`a` is declared in m, its value has no unit",
-    );
-    refuse_saying(
-        &with("input u: N = k;"),
-        "`u` is declared in N, its value is in N/m",
-    );
+    let table = "
+        constraint x = phi; ⇒ this equation mixes m and no unit
+        constraint der(x) = x; ⇒ this equation mixes m/s and m
+        start { x = 45*deg; } ⇒ this equation mixes m and no unit
+        param a: m = m*2; ⇒ the default of a parameter is built of
+        const a: m = g; ⇒ `a` is declared in m, its value is in m/s^2
+        output a: m = phi; ⇒ `a` is declared in m, its value has no unit
+        input u: N = k; ⇒ `u` is declared in N, its value is in N/m
+    ";
+    refuse_each(with, table);
     accept(&with(
         "constraint x = L*phi; constraint der(x) = L*der(phi); start { x = 0.5; der(phi) = 3; }",
     ));
@@ -181,37 +145,28 @@ fn units_are_products_and_quotients_of_names() {
     accept(&with(
         "output a: kg*m^2/s^2 = L*m*g; output b: N/(m/s) = c; output c2: s^-2 = g/L; output e: J/rad = m*g*L; output f: 1 = x/L;",
     ));
-    refuse_saying(&with("output a: m*x = 1;"), "unknown unit `x`");
-    refuse_saying(&with("output a: m^2.5 = 1;"), "expected a whole exponent");
-    refuse_saying(&with("output a: m^99 = 1;"), "lies between -30 and 30");
-    refuse_saying(&with("output a: = 1;"), "expected a unit");
+    let table = "
+        output a: m*x = 1; ⇒ unknown unit `x`
+        output a: m^2.5 = 1; ⇒ expected a whole exponent
+        output a: m^99 = 1; ⇒ lies between -30 and 30
+        output a: = 1; ⇒ expected a unit
+    ";
+    refuse_each(with, table);
 }
 
 #[test]
 fn units_that_hide_a_factor_are_refused() {
-    refuse_saying(
-        &with("param a: mm = 1;"),
-        "write SI: `m`, and multiply the value by `1e-3`",
-    );
-    refuse_saying(
-        &with("param a: deg = 1;"),
-        "write SI: `rad`, and multiply the value by `deg`",
-    );
-    refuse_saying(
-        &with("param a: N/mm = 1;"),
-        "write SI: `m`, and divide the value by `1e-3`",
-    );
-    refuse_saying(
-        &with("param a: mm^4 = 1;"),
-        "multiply the value by `(1e-3)^4`",
-    );
-    refuse_saying(
-        &with("param a: N/mm^2 = 1;"),
-        "divide the value by `(1e-3)^2`",
-    );
-    refuse_saying(&with("param a: rad/Nm = 1;"), "write `(N*m)`");
-    refuse_saying(&with("param a: Nm = 1;"), "`Nm` is written `N*m`");
-    refuse_saying(&with("param a: kN = 1;"), "`kN` is not an SI unit");
+    let table = "
+        param a: mm = 1; ⇒ write SI: `m`, and multiply the value by `1e-3`
+        param a: deg = 1; ⇒ write SI: `rad`, and multiply the value by `deg`
+        param a: N/mm = 1; ⇒ write SI: `m`, and divide the value by `1e-3`
+        param a: mm^4 = 1; ⇒ multiply the value by `(1e-3)^4`
+        param a: N/mm^2 = 1; ⇒ divide the value by `(1e-3)^2`
+        param a: rad/Nm = 1; ⇒ write `(N*m)`
+        param a: Nm = 1; ⇒ `Nm` is written `N*m`
+        param a: kN = 1; ⇒ `kN` is not an SI unit
+    ";
+    refuse_each(with, table);
 }
 
 #[test]
