@@ -27,6 +27,21 @@ pub(super) struct Algebra {
 }
 
 impl Algebra {
+    /// Arithmetic behind a program, and the arrays that it computes.
+    pub fn behind(program: &Program, longest: usize) -> (Self, BTreeMap<&'static str, Sparse>) {
+        let algebra = Self {
+            program: program.clone(),
+            longest,
+        };
+        let mut arrays: BTreeMap<&'static str, Sparse> = BTreeMap::new();
+        for (slot, value) in &program.outputs {
+            let entry = algebra.signed(*value);
+            let array = arrays.entry(slot.array).or_default();
+            array.insert((slot.row, slot.column), entry);
+        }
+        (algebra, arrays)
+    }
+
     /// Whether there are more operations than are worth while.
     pub fn is_too_long(&self) -> bool {
         self.program.len() > self.longest

@@ -178,8 +178,8 @@ impl Factorised {
     /// The factors of `M`.
     fn mass(&self) -> &Factors {
         match self {
-            Self::Schur(factors) => factors.mass(),
-            Self::Saddle(factors) => factors.mass(),
+            Self::Schur(factors) => &factors.mass,
+            Self::Saddle(factors) => &factors.mass,
         }
     }
 }
@@ -236,16 +236,7 @@ impl System {
             ..
         } = given.layout;
         let rows = given.layout.independent();
-        let mut algebra = Algebra {
-            program: given.program.clone(),
-            longest,
-        };
-        let mut entries: BTreeMap<&'static str, Sparse> = BTreeMap::new();
-        for (slot, value) in &given.program.outputs {
-            let entry = algebra.signed(*value);
-            let array = entries.entry(slot.array).or_default();
-            array.insert((slot.row, slot.column), entry);
-        }
+        let (mut algebra, mut entries) = Algebra::behind(given.program, longest);
         let mut mass = entries.remove("mass").unwrap_or_default();
         let jacobian = entries.remove("jacobian").unwrap_or_default();
         algebra.weigh(&mut mass, &jacobian, weighed);
@@ -310,11 +301,11 @@ impl System {
                 write(array, row, *entry);
             }
         }
-        let (masses, rows) = match &factorised {
-            Factorised::Schur(factors) => (factors.mass_pivots(), factors.row_pivots()),
-            Factorised::Saddle(factors) => (factors.mass_pivots(), factors.row_pivots()),
+        let rows = match &factorised {
+            Factorised::Schur(factors) => &factors.schur.pivots,
+            Factorised::Saddle(factors) => &factors.row_pivots,
         };
-        for (row, &(pivot, whole)) in masses.iter().enumerate() {
+        for (row, &(pivot, whole)) in factorised.mass().pivots.iter().enumerate() {
             if pivot != whole {
                 write("mass_pivots", row, Some(pivot));
                 write("mass_diagonal", row, Some(whole));

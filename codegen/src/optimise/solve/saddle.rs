@@ -22,8 +22,10 @@ use std::collections::{BTreeMap, BTreeSet};
 /// A factorised saddle point matrix.
 pub(super) struct Saddle {
     factors: Factors,
-    mass: Factors,
-    row_pivots: Vec<Pivot>,
+    /// The factors of `M`.
+    pub mass: Factors,
+    /// Bounds of the pivots of `A M⁻¹ Aᵀ` from below, and its diagonal entries.
+    pub row_pivots: Vec<Pivot>,
 }
 
 impl Saddle {
@@ -77,21 +79,6 @@ impl Saddle {
         let mut x = algebra.backward(&self.factors, x);
         x.truncate(n);
         x
-    }
-
-    /// Pivots of `M`, and the diagonal entries that they are made of.
-    pub fn mass_pivots(&self) -> &[Pivot] {
-        &self.mass.pivots
-    }
-
-    /// The factors of `M`.
-    pub fn mass(&self) -> &Factors {
-        &self.mass
-    }
-
-    /// Bounds of the pivots of `A M⁻¹ Aᵀ` from below, and its diagonal entries.
-    pub fn row_pivots(&self) -> &[Pivot] {
-        &self.row_pivots
     }
 }
 

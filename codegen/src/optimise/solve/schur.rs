@@ -4,15 +4,17 @@
 //! Out: `M = L D Lᵀ`, `W = L⁻¹Aᵀ`, `S = Wᵀ D⁻¹ W = A M⁻¹ Aᵀ = Λ E Λᵀ`, and solves with
 //!      them. The shorter way where coordinates that meet in `M` are few.
 
-use super::algebra::{Algebra, Entry, Pivot, Sparse};
+use super::algebra::{Algebra, Entry, Sparse};
 use super::factors::Factors;
 use super::order::minimum_degree;
 use std::collections::BTreeSet;
 
 /// A factorised `M` and `S`.
 pub(super) struct Schur {
-    mass: Factors,
-    schur: Factors,
+    /// The factors of `M`.
+    pub mass: Factors,
+    /// The factors of `S`.
+    pub schur: Factors,
     /// `W`, a row for each constraint.
     rows: Vec<Vec<Entry>>,
     /// `D⁻¹ W`, likewise.
@@ -81,21 +83,6 @@ impl Schur {
         }
         let driven = algebra.scaled(&self.mass, &driving);
         algebra.backward(&self.mass, driven)
-    }
-
-    /// Pivots of `M`, and the diagonal entries that they are made of.
-    pub fn mass_pivots(&self) -> &[Pivot] {
-        &self.mass.pivots
-    }
-
-    /// The factors of `M`.
-    pub fn mass(&self) -> &Factors {
-        &self.mass
-    }
-
-    /// Pivots of `S`, likewise.
-    pub fn row_pivots(&self) -> &[Pivot] {
-        &self.schur.pivots
     }
 }
 

@@ -20,23 +20,13 @@ use super::{OPERATIONS_MAX, Solved, Way};
 use crate::expr::{Arithmetic, Number, Symmetric};
 use crate::optimise::dead::ordered;
 use crate::optimise::program::{Program, Slot, Value};
-use std::collections::BTreeMap;
 
 /// The accelerations of `n` coordinates, beside which `count` velocities are shared.
 pub(in crate::optimise) fn with_shared(
     program: &Program,
     (n, count): (usize, usize),
 ) -> Option<Solved> {
-    let mut algebra = Algebra {
-        program: program.clone(),
-        longest: OPERATIONS_MAX,
-    };
-    let mut entries: BTreeMap<&str, Sparse> = BTreeMap::new();
-    for (slot, value) in &program.outputs {
-        let entry = algebra.signed(*value);
-        let array = entries.entry(slot.array).or_default();
-        array.insert((slot.row, slot.column), entry);
-    }
+    let (mut algebra, mut entries) = Algebra::behind(program, OPERATIONS_MAX);
     let mut take = |array| entries.remove(array).unwrap_or_default();
     let (mass, force) = (take("mass"), take("force"));
     let order = Order::of(&take("links"), n, count);
