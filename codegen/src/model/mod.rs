@@ -53,7 +53,7 @@ use crate::diagnostic::Span;
 use crate::expr::{ExprId, Table};
 
 /// A mechanism whose every part has been checked.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Default)]
 pub struct Mechanism {
     /// The name after `mechanism`.
     pub name: String,
@@ -318,27 +318,7 @@ impl Mechanism {
         Self {
             name: name.to_string(),
             docs: docs.to_string(),
-            graph: Graph::new(),
-            coordinates: Vec::new(),
-            states: 0,
-            parameters: Vec::new(),
-            constants: Vec::new(),
-            inputs: Vec::new(),
-            kinetic: Vec::new(),
-            potential: Vec::new(),
-            dissipation: Vec::new(),
-            forces: Vec::new(),
-            constraints: Vec::new(),
-            starts: Vec::new(),
-            start_equations: Vec::new(),
-            start_guesses: Vec::new(),
-            outputs: Vec::new(),
-            events: Vec::new(),
-            shapes: Vec::new(),
-            described: Vec::new(),
-            files: Vec::new(),
-            tables: Vec::new(),
-            switches: Vec::new(),
+            ..Self::default()
         }
     }
 
