@@ -10,9 +10,9 @@
 
 use core::any::Any;
 
-/// Defines a function of a scalar that gives the address of another one.
+/// Defines functions of a scalar that give the addresses of others.
 macro_rules! compiled_once {
-    ($(#[$meta:meta])* $visibility:vis fn $name:ident<$T:ident>: $signature:ty = $function:expr;) => {
+    ($($(#[$meta:meta])* $visibility:vis fn $name:ident<$T:ident>: $signature:ty = $function:expr;)+) => {$(
         $(#[$meta])*
         // The signature is all that there is to say of an address.
         #[allow(clippy::type_complexity)]
@@ -25,7 +25,7 @@ macro_rules! compiled_once {
                 $function
             }
         }
-    };
+    )+};
 }
 pub(crate) use compiled_once;
 

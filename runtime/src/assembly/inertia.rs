@@ -160,8 +160,7 @@ impl<T: Real> Reduced<'_, T> {
 compiled_once! {
     /// [`negative`].
     pub(super) fn negating<T>:
-        fn(&[T], usize, &Workspace<'_, T>) -> Result<Option<usize>, Breakdown> =
-        |mass, n, workspace| negative(mass, n, workspace);
+        fn(&[T], usize, &Workspace<'_, T>) -> Result<Option<usize>, Breakdown> = negative;
 }
 
 #[cfg(test)]

@@ -281,6 +281,5 @@ fn merit<T: Real>(
 
 compiled_once! {
     /// [`assemble`].
-    pub(super) fn positions<T>: Assemble<T> =
-        |equations, draft, workspace| assemble(equations, draft, workspace);
+    pub(super) fn positions<T>: Assemble<T> = assemble;
 }

@@ -324,6 +324,5 @@ impl<T: Real> Branches<'_, '_, T> {
 
 compiled_once! {
     /// [`assemble`].
-    pub(super) fn velocities<T>: Assemble<T> =
-        |equations, draft, workspace| assemble(equations, draft, workspace);
+    pub(super) fn velocities<T>: Assemble<T> = assemble;
 }

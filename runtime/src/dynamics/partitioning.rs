@@ -110,7 +110,5 @@ compiled_once! {
         (&'a mut [T], &'a mut [T]),
         &Workspace<'a, T>,
         &mut [T],
-    ) -> Result<(), usize> = |inertia, rows, workspace, acceleration| {
-        partition(inertia, rows, workspace, acceleration)
-    };
+    ) -> Result<(), usize> = partition;
 }

@@ -314,5 +314,5 @@ fn neighbours<'a, T: Real>(
 compiled_once! {
     fn learning<T>:
         fn(&mut dyn Constrained<T>, At<'_, T>, &Workspace<'_, T>) -> Result<(), DynamicsError<T>> =
-        |solver, state, workspace| learn_rank(solver, state, workspace);
+        learn_rank;
 }

@@ -265,8 +265,5 @@ compiled_once! {
         (&[T], &[T]),
         (&mut [T], &mut [bool]),
         &Workspace<'_, T>,
-    ) -> Result<(), DynamicsError<T>> =
-        |solver, state, along, found, workspace| {
-            share_on_sheet(solver, state, along, found, workspace)
-        };
+    ) -> Result<(), DynamicsError<T>> = share_on_sheet;
 }

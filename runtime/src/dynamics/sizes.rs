@@ -459,10 +459,8 @@ fn observe_sizes<T: Real>(solver: &mut dyn Constrained<T>, workspace: &Workspace
 }
 
 compiled_once! {
-    fn observing<T>: fn(&mut dyn Constrained<T>, &Workspace<'_, T>) =
-        |solver, workspace| observe_sizes(solver, workspace);
-}
-compiled_once! {
+    fn observing<T>: fn(&mut dyn Constrained<T>, &Workspace<'_, T>) = observe_sizes;
+
     fn sampling<T>: fn(&mut dyn Constrained<T>, At<'_, T>, bool, &Workspace<'_, T>) =
-        |solver, state, by_form, workspace| sample_sizes(solver, state, by_form, workspace);
+        sample_sizes;
 }

@@ -174,11 +174,10 @@ compiled_once! {
     /// [`Slid::slide`].
     pub(super) fn sliding<T>:
         fn(&Slid, usize, &mut [T], Accelerate<'_, T>) -> Result<Weights<T>, DynamicsError<T>> =
-        |slid, n, vectors, accelerate| slid.slide(n, vectors, accelerate);
-}
-compiled_once! {
+        Slid::slide;
+
     /// [`Slid::strike`].
     pub(super) fn striking<T>:
         fn(&Slid, &mut [T], &mut [T], Accelerate<'_, T>) -> Result<(), DynamicsError<T>> =
-        |slid, velocity, vectors, accelerate| slid.strike(velocity, vectors, accelerate);
+        Slid::strike;
 }

@@ -403,8 +403,7 @@ compiled_once! {
     /// [`Motion::switch`].
     pub(super) fn switching<T>: fn(&mut (dyn Motion<T> + '_)) -> Result<Switching<T>, DynamicsError<T>> =
         |motion| motion.switch();
-}
-compiled_once! {
+
     /// [`Motion::settle`].
     pub(super) fn settling<T>: fn(&mut (dyn Motion<T> + '_)) -> Result<(), DynamicsError<T>> =
         |motion| motion.settle();

@@ -310,5 +310,5 @@ fn eigenvector<T: Real>(nodes: &[T], scaled: &[T], value: Complex<T>, out: &mut 
 
 compiled_once! {
     /// [`Collocation::new`].
-    pub(super) fn collocation<T>: fn(&Digits) -> Collocation<T> = |digits| Collocation::new(digits);
+    pub(super) fn collocation<T>: fn(&Digits) -> Collocation<T> = Collocation::new;
 }

@@ -175,6 +175,5 @@ fn set_cubic<T: Real, const N: usize>(
 }
 
 compiled_once! {
-    fn through<T>: fn(&mut [T], (&[T], &[T]), &[T], &mut [T]) =
-        |out, ends, nodes, values| set_through(out, ends, nodes, values);
+    fn through<T>: fn(&mut [T], (&[T], &[T]), &[T], &mut [T]) = set_through;
 }

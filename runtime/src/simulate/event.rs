@@ -489,10 +489,9 @@ pub(super) fn state_at<T: Real, const N: usize>(
 
 compiled_once! {
     fn find_first<T>: fn(&mut Events<T>, &mut Along<'_, T>) -> Result<(), DynamicsError<T>> =
-        |events, along| events.find_first(along);
-}
-compiled_once! {
+        Events::find_first;
+
     fn take_first<T>:
         fn(&mut Events<T>, &mut Along<'_, T>) -> Result<Option<Happened<T>>, DynamicsError<T>> =
-        |events, along| events.take_first(along);
+        Events::take_first;
 }

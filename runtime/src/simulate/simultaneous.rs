@@ -69,6 +69,5 @@ compiled_once! {
         &mut Events<T>,
         &mut Along<'_, T>,
         (&[T; ROOM], &[T; ROOM])
-    ) -> Result<(), DynamicsError<T>> =
-        |events, along, known| events.keep_zeros(along, known);
+    ) -> Result<(), DynamicsError<T>> = Events::keep_zeros;
 }

@@ -292,6 +292,5 @@ compiled_once! {
         At<'_, T>,
         &mut [T],
         &Workspace<'_, T>,
-    ) -> Result<bool, DynamicsError<T>> =
-        |solver, state, tangent, workspace| singular_tangent(solver, state, tangent, workspace);
+    ) -> Result<bool, DynamicsError<T>> = singular_tangent;
 }

@@ -267,8 +267,7 @@ compiled_once! {
         &Workspace<'_, T>,
     ) -> Result<Placement, Obstacle> =
         |sheets, state, point, workspace| sheets.place(state, point, workspace);
-}
-compiled_once! {
+
     /// [`Sheets::measure`].
     pub(crate) fn measuring<T>: fn(
         &mut Sheets<'_, T>,
@@ -277,8 +276,7 @@ compiled_once! {
         &Workspace<'_, T>,
     ) -> Result<(), Obstacle> =
         |sheets, state, point, workspace| sheets.measure(state, point, workspace);
-}
-compiled_once! {
+
     /// [`Sheets::crossed`].
     pub(crate) fn counting<T>: fn(
         &mut Sheets<'_, T>,
@@ -287,20 +285,17 @@ compiled_once! {
         &Workspace<'_, T>,
     ) -> (Option<usize>, T) =
         |sheets, ends, seeks, workspace| sheets.crossed(ends, seeks, workspace);
-}
-compiled_once! {
+
     /// [`Sheets::stays`].
     pub(crate) fn staying<T>:
         fn(&mut Sheets<'_, T>, (At<'_, T>, At<'_, T>), usize, &Workspace<'_, T>) -> bool =
         |sheets, ends, looks, workspace| sheets.stays(ends, looks, workspace);
-}
-compiled_once! {
+
     /// [`Sheets::chose_poorly`].
     pub(crate) fn choosing_poorly<T>:
         fn(&mut Sheets<'_, T>, (At<'_, T>, At<'_, T>), &Workspace<'_, T>) -> bool =
         |sheets, ends, workspace| sheets.chose_poorly(ends, workspace);
-}
-compiled_once! {
+
     /// [`Sheets::passages`].
     pub(crate) fn finding<T>:
         fn(&mut Sheets<'_, T>, &Searched<'_, T>, &Workspace<'_, T>) -> Found<T> =
