@@ -18,23 +18,22 @@ use nalgebra::SVector;
 const JUMP: f64 = 0.25;
 
 impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
-    /// Projects a state, if the settings say so; whether it was moved past another sheet, by
-    /// more than the end of a step may be off.
+    /// Projects a state, if the settings say so, past another sheet where that is nearer.
     pub(crate) fn project<M: Mechanism<T, N, R> + ?Sized>(
         &mut self,
         mechanism: &M,
         state: &mut State<T, N>,
-    ) -> Result<bool, DynamicsError<T>> {
+    ) -> Result<(), DynamicsError<T>> {
+        self.session.trial.strays = false;
         if R == 0 || self.session.at_rest {
-            return finite(state).map(|()| false);
+            return finite(state);
         }
         if !self.is_prepared() {
             self.prepare(&mechanism, state)?;
         }
         let mut placed = *state;
-        let mut strays = false;
         if self.session.chart.is_some() && self.follows() && self.is_beside() {
-            strays = self.project_onto_sheet(&mechanism, &mut placed)?;
+            self.project_onto_sheet(&mechanism, &mut placed)?;
         } else if self.is_projected() {
             self.project_regular(mechanism, &mut placed)?;
             if self.session.tolerance.is_some() {
@@ -50,7 +49,7 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
             self.counters.projections += 1;
             *state = placed;
         }
-        finite(state).map(|()| strays)
+        finite(state)
     }
 
     /// Projects a state where the constraints are regular.

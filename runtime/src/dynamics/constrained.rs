@@ -146,28 +146,23 @@ where
         &mut self,
         state: &mut State<T, N>,
     ) -> Result<(), DynamicsError<T>> {
-        let t = state.t;
-        let strays = self.project_past(state)?;
-        self.solver.refuse_strayed(&self.mechanism, t, strays)
+        self.project_past(state)?;
+        self.solver.refuse_strayed(&self.mechanism, state.t)
     }
 
-    /// Brings a state within a step back onto the constraints; whether it was moved past another
-    /// sheet, by more than the end of a step may be off.
-    pub(crate) fn project_past(
-        &mut self,
-        state: &mut State<T, N>,
-    ) -> Result<bool, DynamicsError<T>> {
+    /// Brings a state within a step back onto the constraints, also if it is moved past another
+    /// sheet.
+    pub(crate) fn project_past(&mut self, state: &mut State<T, N>) -> Result<(), DynamicsError<T>> {
         let solver = &mut *self.solver;
         if solver.session.chart.is_none() {
             solver.begin_step(state);
         }
-        let (projected, strays) = escalating(self, |system| {
+        *state = escalating(self, |system| {
             let mut projected = *state;
-            let strays = system.solver.project(system.mechanism, &mut projected)?;
-            Ok::<_, DynamicsError<T>>((projected, strays))
+            system.solver.project(system.mechanism, &mut projected)?;
+            Ok::<_, DynamicsError<T>>(projected)
         })?;
-        *state = projected;
-        Ok(strays)
+        Ok(())
     }
 
     /// The rank of the constraints at a position, which should be on them.
@@ -292,9 +287,8 @@ where
 
     fn project(&mut self, state: &mut State<T, N>) -> Result<(), DynamicsError<T>> {
         with_room::<T, _, N, R>(|| {
-            let strays = self.solver.project(self.mechanism, state)?;
-            let t = state.t;
-            self.solver.refuse_strayed(&self.mechanism, t, strays)?;
+            self.solver.project(self.mechanism, state)?;
+            self.solver.refuse_strayed(&self.mechanism, state.t)?;
             self.solver.project_sliding(&self.mechanism, state)
         })
     }

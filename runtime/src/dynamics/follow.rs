@@ -334,14 +334,13 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
         }
     }
 
-    /// Puts a state of a trial step onto the sheet; whether it was moved past another one, by
-    /// more than the end of a step may be off.
+    /// Puts a state of a trial step onto the sheet.
     #[inline(never)]
     pub(crate) fn project_onto_sheet(
         &mut self,
         mechanism: &dyn Mechanism<T, N, R>,
         state: &mut State<T, N>,
-    ) -> Result<bool, DynamicsError<T>> {
+    ) -> Result<(), DynamicsError<T>> {
         let mut point = Point::zeros();
         let placement = self.place(mechanism, state, &mut point)?;
         if !placement.is_crossing() {
@@ -360,20 +359,17 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
             met: point.met,
             leaves: matches!(placement, Placement::Crossing { leaves: true, .. }),
         });
-        Ok(matches!(
-            placement,
-            Placement::Crossing { strays: true, .. }
-        ))
+        self.session.trial.strays = matches!(placement, Placement::Crossing { strays: true, .. });
+        Ok(())
     }
 
-    /// Refuses a state that was moved past another sheet.
+    /// Refuses the state that was projected last if it was moved past another sheet.
     pub(crate) fn refuse_strayed(
         &self,
         mechanism: &dyn Mechanism<T, N, R>,
         t: T,
-        strays: bool,
     ) -> Result<(), DynamicsError<T>> {
-        match strays {
+        match self.session.trial.strays {
             true => Err(self.refusal(mechanism, Obstacle::LeftSheet, t)),
             false => Ok(()),
         }
@@ -438,17 +434,18 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
         self.session.rate = self.session.trial.rate;
         self.session.step_chart = None;
         if self.session.chart.is_some() {
-            self.put_chart_aside();
+            hand_over(&mut self.session.chart, &mut self.session.step_chart);
         } else {
             if self.session.trial.inspection_chart.is_some() {
-                self.keep_looked();
+                let inspected = &mut self.session.trial.inspection_chart;
+                hand_over(inspected, &mut self.session.step_chart);
             }
             if self.session.trial.by_emitted {
                 self.learn_emitted_rows(mechanism, &step.end);
             }
         }
         if self.session.trial.chart.is_some() && !self.leaves_dependence(mechanism, &step.end)? {
-            self.keep_chart();
+            hand_over(&mut self.session.trial.chart, &mut self.session.chart);
         }
         self.expect_regular();
         Ok(())
@@ -465,23 +462,12 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
         self.session.near &= !chooses;
         Ok(chooses)
     }
+}
 
-    /// Keeps the chart of the step, by which its inside is searched later.
-    #[inline(never)]
-    fn put_chart_aside(&mut self) {
-        self.session.step_chart = self.session.chart.take();
-    }
-
-    /// Keeps the chart by which the step was inspected, by which its inside is searched later.
-    #[inline(never)]
-    fn keep_looked(&mut self) {
-        self.session.step_chart = self.session.trial.inspection_chart.take();
-    }
-
-    /// Keeps the chart at the end of the trial step for the next one. A function of its own: a
-    /// chart is large, and most steps have none.
-    #[inline(never)]
-    fn keep_chart(&mut self) {
-        self.session.chart = self.session.trial.chart.take();
-    }
+/// Moves a chart to where it is kept: the one by which the inside of the step is searched later,
+/// and the one for the next step. A function of its own: a chart is large, and most steps have
+/// none.
+#[inline(never)]
+fn hand_over<C>(from: &mut Option<C>, to: &mut Option<C>) {
+    *to = from.take();
 }

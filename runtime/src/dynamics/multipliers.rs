@@ -7,6 +7,7 @@
 //! `A` are dependent; a Schur complement of all rows shows how near that is.
 
 use super::{Core, Source};
+use crate::linalg::column;
 use crate::tolerance::{passes, window};
 use crate::{DynamicsError, Mechanism, Real, State};
 use nalgebra::SVector;
@@ -38,10 +39,7 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
     ) -> Result<(), DynamicsError<T>> {
         self.factorise_metric(mechanism, Source::Terms, state.t)?;
         self.counters.constraint_factorisations += 1;
-        let mut every_row = [0; R];
-        for (row, index) in every_row.iter_mut().enumerate() {
-            *index = row;
-        }
+        let every_row = column(|row| row);
         let jacobian = &self.terms.jacobian;
         let squared = self
             .schur

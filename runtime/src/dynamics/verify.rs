@@ -60,7 +60,14 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
         mechanism: &dyn Mechanism<T, N, R>,
         end: &State<T, N>,
     ) -> Result<(), DynamicsError<T>> {
-        let squared = self.pivot_at(mechanism, end)?;
+        mechanism.position(end, &mut self.position);
+        let factorised = self.factorise_metric(mechanism, Source::Position, end.t);
+        let squared = match (factorised, self.metric.hides_dependence()) {
+            (Ok(()), true) => self.metric.smallest_pivot(),
+            (Ok(()), false) => T::one(),
+            (Err(DynamicsError::MassSingular { .. }), true) => T::zero(),
+            (Err(error), _) => return Err(error),
+        };
         self.session.trial.end = self.session.trial.end.min(squared);
         self.session.trial.lowest = self.session.trial.lowest.min(squared);
         Ok(())
@@ -304,23 +311,6 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
         match self.metric.hides_dependence() {
             true => Ok(()),
             false => self.factorise_metric(mechanism, Source::Position, end.t),
-        }
-    }
-
-    /// Factorises the metric at a state; its smallest pivot if that shows that constraints become
-    /// dependent, else one.
-    fn pivot_at(
-        &mut self,
-        mechanism: &dyn Mechanism<T, N, R>,
-        state: &State<T, N>,
-    ) -> Result<T, DynamicsError<T>> {
-        mechanism.position(state, &mut self.position);
-        let factorised = self.factorise_metric(mechanism, Source::Position, state.t);
-        match (factorised, self.metric.hides_dependence()) {
-            (Ok(()), true) => Ok(self.metric.smallest_pivot()),
-            (Ok(()), false) => Ok(T::one()),
-            (Err(DynamicsError::MassSingular { .. }), true) => Ok(T::zero()),
-            (Err(error), _) => Err(error),
         }
     }
 

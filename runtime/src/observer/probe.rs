@@ -150,7 +150,7 @@ where
     ) -> Result<(), DynamicsError<T>> {
         match other {
             OtherBranch::Refused => self.project_within(state),
-            OtherBranch::Crossed => self.project_past(state).map(|_| ()),
+            OtherBranch::Crossed => self.project_past(state),
         }
     }
 

@@ -62,6 +62,9 @@ pub(crate) struct Trial<T, const N: usize, const R: usize> {
     pub(crate) inspection_chart: Option<Chart<T, N, R>>,
     /// The end's tangent space, drift, and how the sheets were met there.
     pub(crate) placed: Option<Placed<T, N>>,
+    /// The state that was projected last was moved past another sheet, by more than the end of a
+    /// step may be off.
+    pub(crate) strays: bool,
     /// Emitted code projected its end.
     pub(crate) by_emitted: bool,
     /// Some state of it lies next to a configuration where sheets were seen to cross.
@@ -89,6 +92,7 @@ impl<T: Real, const N: usize, const R: usize> Trial<T, N, R> {
             chart: None,
             inspection_chart: None,
             placed: None,
+            strays: false,
             by_emitted: false,
             crosses: false,
         }
