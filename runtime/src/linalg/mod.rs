@@ -51,7 +51,7 @@ pub(crate) use frame::{Eliminated, Frame, Matrix};
 pub(crate) use gram::Gram;
 pub(crate) use jacobi::{Breakdown, orthogonalise};
 pub(crate) use products::RowProducts;
-pub(crate) use subset::{exchange_bound, independent_columns};
+pub(crate) use subset::independent_columns;
 pub(crate) use subspace_solution::{add_subspace_solution, solve_in_subspace};
 pub(crate) use substitution::Right;
 pub(crate) use symmetric::diagonalise;

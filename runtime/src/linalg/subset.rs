@@ -1,12 +1,12 @@
 //! A well-conditioned independent subset of vectors.
 //!
 //! In:  vectors of one length, how many are wanted, and which come first.
-//! Out: their indices, or how much better than given ones they can be at most.
+//! Out: their indices.
 //!
 //! Not here: how many are independent. That needs singular values.
 
 use super::column::pair;
-use super::{Workspace, add_scaled, dot, scale, solve_upper};
+use super::{add_scaled, dot};
 use crate::Real;
 
 /// Chooses columns of length `n` in `x`, as many as there is room for, each the one farthest
@@ -62,59 +62,5 @@ fn remove_direction<T: Real>(x: &mut [T], n: usize, pivot: usize, size: T) {
             let share = dot(direction, column) / size;
             add_scaled(column, -share, direction);
         }
-    }
-}
-
-/// A bound of how many times the volume that the first `m` columns of length `n` in `x` span may
-/// be that of any other `m` of all these columns: not finite where the first ones are dependent.
-/// `x` is used up.
-///
-/// With the first columns `V = QR`, another column is `Vc + e`, `e` at right angles to all of `V`.
-/// By Hadamard's inequality each one that comes in multiplies the volume at most by
-/// `√(|c|² + |e|²/σ²)`, `σ` being the smallest singular value of `V`, which is at least
-/// `1/‖R⁻¹‖` in Frobenius' norm.
-pub(crate) fn exchange_bound<T: Real>(
-    x: &mut [T],
-    n: usize,
-    m: usize,
-    workspace: &Workspace<'_, T>,
-) -> T {
-    let triangle = workspace.numbers(m * m);
-    let (own, others) = x.split_at_mut(m * n);
-    for j in 0..m {
-        let (before, column) = own.split_at_mut(j * n);
-        let column = &mut column[..n];
-        let shares = &mut triangle[j * m..][..m];
-        remove_shares(before, column, shares);
-        shares[j] = dot(column, column).sqrt();
-        scale(column, T::one() / shares[j]);
-    }
-    let solution = workspace.any(m);
-    let mut inverse = T::zero();
-    for j in 0..m {
-        solution.fill(T::zero());
-        solution[j] = T::one();
-        solve_upper(triangle, solution);
-        inverse += dot(solution, solution);
-    }
-    let mut bound = T::one();
-    for column in others.chunks_exact_mut(n) {
-        remove_shares(own, column, solution);
-        solve_upper(triangle, solution);
-        let factor = dot(solution, solution) + dot(column, column) * inverse;
-        // What is not a number stays one.
-        bound = match factor <= T::one() {
-            true => bound,
-            false => bound * factor,
-        };
-    }
-    bound.sqrt()
-}
-
-/// Subtracts from a column its part along each of some orthonormal ones, and tells its shares.
-fn remove_shares<T: Real>(directions: &[T], column: &mut [T], shares: &mut [T]) {
-    for (direction, share) in directions.chunks_exact(column.len()).zip(shares) {
-        *share = dot(direction, column);
-        add_scaled(column, -*share, direction);
     }
 }

@@ -1,7 +1,5 @@
 //! Factorisations against what they factorise, on random matrices.
 
-mod exchange;
-
 use super::*;
 use crate::tolerance::{passes, window};
 use bricard_testkit::Random;

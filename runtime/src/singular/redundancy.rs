@@ -10,7 +10,7 @@
 use super::found::Searched;
 use super::sheet::Sheet;
 use crate::Real;
-use crate::linalg::{Workspace, dot, exchange_bound, independent_columns, lift_rows};
+use crate::linalg::{Workspace, dot, independent_columns, lift_rows};
 use crate::tolerance::{regular, window};
 
 /// Within a step, the volume that other rows span may be this many times that of the chosen rows;
@@ -43,32 +43,12 @@ impl<T: Real> Sheet<'_, T> {
         if !self.are_some_left(workspace) {
             return false;
         }
-        let much_larger = T::from_f64(MUCH_LARGER);
-        let bound = workspace.scope(|workspace| self.gain_of_others(workspace));
-        if bound.is_some_and(|bound| bound <= much_larger) {
-            return false;
-        }
         let chosen = self.chart.rows.iter().copied();
         let of_chosen = workspace.scope(|workspace| self.span(chosen, T::zero(), workspace).1);
         let (rank, of_others) =
             workspace.scope(|workspace| self.span(0..self.rows(), regular(), workspace));
         // In a singular configuration itself nothing can be told.
-        rank == self.constraints() && of_others > of_chosen * much_larger
-    }
-
-    /// A bound of how many times the volume of the chosen rows may be that of others, had with a
-    /// fraction of the effort of telling it; `None` where there is no room.
-    fn gain_of_others(&self, workspace: &Workspace<'_, T>) -> Option<T> {
-        let (chart, n, m) = (&self.chart, self.chart.n(), self.constraints());
-        if !workspace.has_room(self.rows() * n + m * (m + 1)) {
-            return None;
-        }
-        let jacobian = self.equations.constraints().jacobian;
-        let others = (0..self.rows()).filter(|row| !chart.rows.contains(row));
-        let rows = chart.rows.iter().copied().chain(others);
-        let vectors = workspace.any(self.rows() * n);
-        lift_rows(chart.metric, jacobian, chart.row_scale, rows, vectors);
-        Some(exchange_bound(vectors, n, m, workspace))
+        rank == self.constraints() && of_others > of_chosen * T::from_f64(MUCH_LARGER)
     }
 
     /// Whether all rows become dependent where the chosen ones do within a step: about as near
