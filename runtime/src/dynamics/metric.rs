@@ -128,7 +128,7 @@ pub(crate) struct Metric<T, const N: usize> {
 /// What is known of the metric, over slices, to be changed.
 pub(crate) struct MetricView<'a, T> {
     pub(crate) parts: &'a mut Parts,
-    factor: &'a [T],
+    pub(crate) factor: &'a [T],
     inertia: &'a mut [T],
     ratios: &'a mut [T],
 }

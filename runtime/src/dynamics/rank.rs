@@ -9,7 +9,7 @@
 
 use super::erased::Constrained;
 use super::independent::Independent;
-use super::singular_values::{SingularValueDecomposition, lift, lift_rows};
+use super::singular_values::{SingularValueDecomposition, lift};
 use super::vanishing_gradient::has_one_sign;
 use super::{Core, Source, Which};
 use crate::equations::At;
@@ -125,18 +125,12 @@ pub(super) fn learn_rank<T: Real>(
 
 /// Chooses an independent subset of the rows where the constraints were evaluated last.
 pub(crate) fn choose_rows<T: Real>(solver: &mut dyn Constrained<T>, workspace: &Workspace<'_, T>) {
-    if solver.learn().rows.all_independent() {
-        return;
-    }
-    workspace.scope(|workspace| {
-        let jacobian = solver.constraints().jacobian;
-        let rows = workspace.numbers(jacobian.len());
-        lift_rows(jacobian, solver.known(), rows);
-        let n = rows.len() / solver.known().r();
-        let mut learning = solver.learn();
+    let mut learning = solver.learn();
+    if !learning.rows.all_independent() {
         learning.counters.row_choices += 1;
-        learning.rows.choose(rows, n, workspace);
-    });
+        let (factor, jacobian) = (learning.metric.factor, learning.at.jacobian);
+        learning.rows.choose(factor, jacobian, workspace);
+    }
 }
 
 /// The rank at a state, or next to it if it is higher there; writes the position that has it.

@@ -14,12 +14,13 @@ use crate::tolerance::{disproportionate, negligible, regular};
 use crate::{Real, Structure};
 
 /// Chooses the rows that are the most independent for a Jacobian, in the metric and of size one,
-/// holonomic ones first; whether there are as many.
+/// holonomic ones first, so that the first of the chosen rows span the holonomic ones; whether
+/// there are as many whose distance from those before them is above a bound.
 fn choose_most_independent<T: Real>(
     factor: &[T],
     jacobian: &[T],
     (sizes, holonomic): (&[T], &[bool]),
-    chosen: &mut [usize],
+    (chosen, least): (&mut [usize], T),
     workspace: &Workspace<'_, T>,
 ) -> bool {
     let r = sizes.len();
@@ -28,7 +29,7 @@ fn choose_most_independent<T: Real>(
         let n = vectors.len() / r;
         lift_rows(factor, jacobian, sizes, 0..r, vectors);
         let first = |row: usize| holonomic[row];
-        independent_columns(vectors, n, &first, regular(), chosen) == chosen.len()
+        independent_columns(vectors, n, &first, least, chosen) == chosen.len()
     })
 }
 
@@ -183,7 +184,8 @@ impl<T: Real, const R: usize> Rows<T, R> {
         let mut chosen = known;
         let others = !self.all_independent() && {
             let rows = (&self.scale[..], &self.holonomic[..]);
-            choose_most_independent(factor, jacobian, rows, &mut chosen[..count], workspace)
+            let chosen = (&mut chosen[..count], regular());
+            choose_most_independent(factor, jacobian, rows, chosen, workspace)
         };
         Some((if others { chosen } else { known }, count))
     }
@@ -307,16 +309,14 @@ impl<T: Real> RowsView<'_, T> {
         }
     }
 
-    /// Chooses the active subset from vectors of length `n`, the rows in the metric and
-    /// scaled to size one, at a regular position. Holonomic rows come first, so that the
-    /// first of the active rows span the holonomic ones.
-    pub(crate) fn choose(&mut self, vectors: &mut [T], n: usize, workspace: &Workspace<'_, T>) {
+    /// Chooses the active subset for a Jacobian at a regular position.
+    pub(crate) fn choose(&mut self, factor: &[T], jacobian: &[T], workspace: &Workspace<'_, T>) {
         workspace.scope(|workspace| {
-            let chosen = workspace.indices(*self.regular);
-            let first = |row: usize| self.holonomic[row];
-            let count = independent_columns(vectors, n, &first, negligible(), chosen);
+            let count = *self.regular;
+            let chosen = workspace.indices(count);
+            let (rows, most) = ((&*self.scale, self.holonomic), (&mut *chosen, negligible()));
             // In a singular configuration there are too few: then the rows chosen before stay.
-            if count == *self.regular {
+            if choose_most_independent(factor, jacobian, rows, most, workspace) {
                 self.active[..count].copy_from_slice(chosen);
                 *self.active_count = count;
                 self.count_holonomic();

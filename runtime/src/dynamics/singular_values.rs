@@ -12,7 +12,8 @@ use super::erased::{Constrained, Known};
 use super::solver::Source;
 use crate::equations::At;
 use crate::linalg::{
-    self, Breakdown, Workspace, add_scaled, count_above, dot, lift_row, norm, orthogonalise, scale,
+    Breakdown, Workspace, add_scaled, count_above, dot, lift_row, lift_rows, norm, orthogonalise,
+    scale,
 };
 use crate::once::compiled_once;
 use crate::tolerance::difference;
@@ -43,7 +44,7 @@ impl<'a, T: Real> SingularValueDecomposition<'a, T> {
         let directions = workspace.numbers(n * r);
         let left = workspace.numbers(r * r);
         let values = workspace.numbers(r);
-        lift_rows(jacobian, known, directions);
+        lift_rows(known.factor, jacobian, known.scale, 0..r, directions);
         for entry in left.iter_mut().step_by(r + 1) {
             *entry = T::one();
         }
@@ -123,11 +124,6 @@ impl<'a, T: Real> SingularValueDecomposition<'a, T> {
             }
         }
     }
-}
-
-/// The rows of a Jacobian in the metric, scaled to size one.
-pub(super) fn lift_rows<T: Real>(jacobian: &[T], known: Known<'_, T>, rows: &mut [T]) {
-    linalg::lift_rows(known.factor, jacobian, known.scale, 0..known.r(), rows);
 }
 
 /// `U⁻¹aᵀ` for one row `a` of a Jacobian.
