@@ -112,7 +112,7 @@ where
         check_angles(self.mechanism.structure(), state.t, state.q.as_slice())?;
         self.solver.session.tolerance = tolerance;
         self.solver.begin_step(state);
-        if self.solver.places_starts() {
+        if R > 0 && self.solver.is_projected() {
             self.put_onto_constraints(state)?;
         }
         escalating(self, |system| {

@@ -34,11 +34,6 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
         self.session.trial.crosses = false;
     }
 
-    /// Whether a start is put onto the constraints.
-    pub(crate) fn places_starts(&self) -> bool {
-        R > 0 && self.is_projected()
-    }
-
     /// Whether accepted states are put onto the constraints.
     pub(crate) fn is_projected(&self) -> bool {
         self.settings.stabilisation == Stabilisation::Projection

@@ -129,7 +129,8 @@ pub(crate) struct Metric<T, const N: usize> {
 pub(crate) struct MetricView<'a, T> {
     pub(crate) parts: &'a mut Parts,
     pub(crate) factor: &'a [T],
-    inertia: &'a mut [T],
+    /// The largest inertia that each coordinate had.
+    pub(crate) inertia: &'a mut [T],
     ratios: &'a mut [T],
 }
 
@@ -164,11 +165,6 @@ impl<T: Real> MetricView<'_, T> {
         for (largest, ratio) in self.ratios.iter_mut().zip(ratios) {
             *largest = largest.max(ratio);
         }
-    }
-
-    /// The largest inertia that each coordinate had.
-    pub(crate) fn inertia(&self) -> &[T] {
-        self.inertia
     }
 }
 

@@ -321,7 +321,7 @@ fn sample_mass<T: Real>(
         observe_ratios(solver, state, turned);
     }
     let mut learning = solver.learn();
-    let inertia = learning.metric.inertia();
+    let inertia = &*learning.metric.inertia;
     let mut uneven = learning.rows.weigh_unevenly(levers, inertia, workspace);
     let mut apart = |sample| {
         turn(solver, state.q, (MAYBE_ANGLES, sample), turned);

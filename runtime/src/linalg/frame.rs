@@ -406,18 +406,12 @@ impl<'a, T: Real> Frame<'a, T> {
         })
     }
 
-    /// The size of the determinant, zero also where it is so small that it counts as zero.
-    pub(crate) fn volume(&self) -> T {
+    /// The determinant, zero also where it is so small that it counts as zero.
+    pub(crate) fn determinant(&mut self) -> T {
         let mut size = T::one();
         for (row, column) in self.order.rows.iter().zip(&*self.order.columns) {
             size *= self.upper[row * self.n + column].abs();
         }
-        size
-    }
-
-    /// The determinant.
-    pub(crate) fn determinant(&mut self) -> T {
-        let size = self.volume();
         if self.is_negative() { -size } else { size }
     }
 

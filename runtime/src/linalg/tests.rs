@@ -405,7 +405,7 @@ fn check_frame<const N: usize>(
         let rest = matrix * SVector::from(x) - right;
         assert!(rest.amax() < 1e-9 / weak, "{N}, {weak}: {rest}");
         let determinant = determinant(&matrix);
-        assert!((frame.volume() - determinant.abs()).abs() < 1e-12);
+        assert!((frame.determinant() - determinant).abs() < 1e-12);
         assert_eq!(frame.is_negative(), determinant < 0.0);
         frame.solve_independent(Right::Given(right.as_slice()), &[1.0; N], &mut x);
         let rest = matrix * SVector::from(x) - right;

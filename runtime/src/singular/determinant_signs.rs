@@ -23,11 +23,6 @@ impl<'a, T: Real> DeterminantSigns<'a, T> {
         }
     }
 
-    /// A number with the sign of the determinant.
-    pub(super) fn signed(&self, size: T) -> T {
-        if self.negative { -size } else { size }
-    }
-
     /// How many sheets were crossed on the way from the state of other signs. Blocks count them,
     /// and determinants tell whether their number is odd. A block also changes its sign where one
     /// of the rows before it loses its pivot, which is no crossing by itself, and may hide one:

@@ -51,14 +51,10 @@ struct Elimination<'a, T> {
 }
 
 impl<'a, T: Real> Elimination<'a, T> {
-    fn of(t: T, frame: &mut Frame<'_, T>, workspace: &Workspace<'a, T>) -> Self {
-        Self::with(t, DeterminantSigns::of(frame, workspace), frame)
-    }
-
-    fn with(t: T, signs: DeterminantSigns<'a, T>, frame: &Frame<'_, T>) -> Self {
+    fn with(t: T, signs: DeterminantSigns<'a, T>, frame: &mut Frame<'_, T>) -> Self {
         Self {
             t,
-            determinant: signs.signed(frame.volume()),
+            determinant: frame.determinant(),
             logarithm: frame.log_volume(),
             signs,
         }
@@ -172,7 +168,7 @@ impl<T: Real> Sheet<'_, T> {
         step.position(own.t, q);
         let reference = self.reference(own.t, q, workspace)?;
         let like = reference.like;
-        let own = Elimination::with(own.t, reference.signs, &self.frame);
+        let own = Elimination::with(own.t, reference.signs, &mut self.frame);
         let search = Search { step, like };
         let other = self.eliminated_at(&search, other.t, workspace)?;
         let (from, to) = match own.t < other.t {
@@ -247,7 +243,8 @@ impl<T: Real> Sheet<'_, T> {
         workspace: &Workspace<'b, T>,
     ) -> Option<Elimination<'b, T>> {
         self.eliminate_at(search, t, workspace)?;
-        Some(Elimination::of(t, &mut self.frame, workspace))
+        let signs = DeterminantSigns::of(&mut self.frame, workspace);
+        Some(Elimination::with(t, signs, &mut self.frame))
     }
 
     /// The determinant at a time within a step.
@@ -379,8 +376,7 @@ impl<T: Real> Sheet<'_, T> {
         let (mut a, mut b) = (T::zero(), T::one());
         for deepening in 0..DEEPENINGS {
             let t = from.t + span * x;
-            self.eliminate_at(search, t, workspace)?;
-            let middle = Elimination::of(t, &mut self.frame, workspace);
+            let middle = self.eliminated_at(search, t, workspace)?;
             if middle.signs.negative != from.signs.negative {
                 return self.is_told(search, &middle, workspace).then_some(middle);
             }

@@ -275,7 +275,7 @@ impl<'a, T: Real> Sheet<'a, T> {
     ) -> Result<(), Obstacle> {
         self.eliminate((point.t, point.q), Some(like))?;
         self.correct(point.q);
-        self.set_rates(point.v, T::one());
+        self.rates(point.v, T::one());
         let (right, scales) = (Right::Given(self.right), self.chart.column_scale);
         self.frame.solve_independent(right, scales, self.solution);
         add_scaled(point.v, -T::one(), self.solution);
@@ -302,19 +302,13 @@ impl<'a, T: Real> Sheet<'a, T> {
     /// By how much a displacement in some time changes the near-dependent constraint, when the
     /// rows before it are eliminated.
     pub(super) fn reduced_change(&mut self, displacement: &[T], time: T) -> T {
-        self.set_rates(displacement, time);
+        self.rates(displacement, time);
         let mut reduced = self.frame.reduced(Right::Given(self.right));
         reduced.next().unwrap_or_default()
     }
 
-    /// The changes of constraint rows by a displacement in some time.
+    /// The changes of constraint rows by a displacement in some time, as right-hand sides.
     pub(super) fn rates(&mut self, displacement: &[T], time: T) -> &[T] {
-        self.set_rates(displacement, time);
-        self.right
-    }
-
-    /// Fills the right-hand sides of the constraint rows with their changes.
-    fn set_rates(&mut self, displacement: &[T], time: T) {
         let (chart, at) = (&self.chart, self.equations.constraints());
         self.right.fill(T::zero());
         for (place, &row) in chart.rows.iter().enumerate() {
@@ -325,6 +319,7 @@ impl<'a, T: Real> Sheet<'a, T> {
             }
             self.right[place] = chart.row_scale[row] * change;
         }
+        self.right
     }
 
     /// The displacement that changes the near-dependent constraint alone, as the pivot of its
@@ -339,21 +334,9 @@ impl<'a, T: Real> Sheet<'a, T> {
         }
     }
 
-    /// Moves a position along the chart's complement onto the sheet, or to where constraint
-    /// rows are shifted, by Newton's iteration; leaves its frame.
-    pub(super) fn project(
-        &mut self,
-        t: T,
-        q: &mut [T],
-        like: Option<&Eliminated<'_, T>>,
-        shift: Shift<'_, T>,
-    ) -> Result<(), Obstacle> {
-        self.eliminate((t, q), like)?;
-        self.project_from_here(t, q, like, shift)
-    }
-
-    /// Moves a guess `q` onto the sheet as `project` does, and takes back what then leads there
-    /// from a position beside it along rows that restrict only velocities.
+    /// Moves a guess `q` along the chart's complement onto the sheet, or to where constraint rows
+    /// are shifted, and takes back what then leads there from a position beside it along rows that
+    /// restrict only velocities; leaves its frame.
     pub(super) fn project_from(
         &mut self,
         from: &[T],
@@ -362,12 +345,14 @@ impl<'a, T: Real> Sheet<'a, T> {
         shift: Shift<'_, T>,
         workspace: &Workspace<'_, T>,
     ) -> Result<(), Obstacle> {
-        self.project(t, q, Some(like), shift)?;
+        self.eliminate((t, q), Some(like))?;
+        self.project_from_here(t, q, Some(like), shift)?;
         if self.kind.velocity.is_empty() {
             return Ok(());
         }
         self.straighten(from, q, workspace);
-        self.project(t, q, Some(like), shift)
+        self.eliminate((t, q), Some(like))?;
+        self.project_from_here(t, q, Some(like), shift)
     }
 
     /// Takes back what led from a position to another, whose frame is at hand, along rows that
@@ -377,7 +362,7 @@ impl<'a, T: Real> Sheet<'a, T> {
             let moved = workspace.any(q.len());
             moved.copy_from_slice(q);
             add_scaled(moved, -T::one(), from);
-            self.set_rates(moved, T::zero());
+            self.rates(moved, T::zero());
         });
         for (right, velocity) in self.right.iter_mut().zip(self.kind.velocity) {
             *right *= *velocity;
