@@ -20,14 +20,10 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
         mechanism: &dyn Mechanism<T, N, R>,
         state: &State<T, N>,
     ) -> Option<AccelerationJacobian<T, N>> {
-        if matches!(self.settings.stabilisation, Stabilisation::Baumgarte { .. }) {
-            return None;
-        }
-        if self.session.chart.is_some() || self.session.at_rest {
-            return None;
-        }
+        let stabilised = matches!(self.settings.stabilisation, Stabilisation::Baumgarte { .. });
         // What conditions that the motion slides along let through is not in the linearisation.
-        if self.conditions.decided.sliding != 0 {
+        let slides = self.conditions.decided.sliding != 0;
+        if stabilised || slides || self.session.chart.is_some() || self.session.at_rest {
             return None;
         }
         mechanism.terms(state, &mut self.terms);

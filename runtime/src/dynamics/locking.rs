@@ -9,7 +9,7 @@
 
 use super::Core;
 use super::conditions::Decided;
-use super::sliding::{ROOM, sliding, striking};
+use super::sliding::{ROOM, weighing};
 use super::switching::{Motion, settling, switching};
 use crate::crossing::noise;
 use crate::{DynamicsError, Mechanism, Real, Sides, State, Step, Switch, Switches, Switching};
@@ -39,17 +39,11 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
     }
 
     /// Holds the conditions as they are at the start of a step; whether there are any.
-    #[inline]
-    pub(super) fn hold(&mut self, mechanism: &dyn Mechanism<T, N, R>, state: &State<T, N>) -> bool {
-        let some = !self.conditions.decided.list.is_empty();
-        if some {
-            self.hold_all(mechanism, state);
-        }
-        some
-    }
-
     #[inline(never)]
-    fn hold_all(&mut self, mechanism: &dyn Mechanism<T, N, R>, state: &State<T, N>) {
+    pub(super) fn hold(&mut self, mechanism: &dyn Mechanism<T, N, R>, state: &State<T, N>) -> bool {
+        if self.conditions.decided.list.is_empty() {
+            return false;
+        }
         if self.conditions.at.as_ref() != Some(state) {
             let mut values = [Switch::default(); Sides::ROOM];
             let count = self.conditions.decided.list.len().min(Sides::ROOM);
@@ -60,6 +54,7 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
             self.conditions.at = Some(*state);
         }
         self.decide(self.conditions.decided.sides);
+        true
     }
 
     /// Holds the conditions as a motion does that begins at a state.
@@ -85,24 +80,15 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
 
     /// Where the first condition changes within a step that was made with those at its
     /// start.
-    #[inline]
+    #[inline(never)]
     pub(super) fn switch(
         &mut self,
         mechanism: &dyn Mechanism<T, N, R>,
         step: &mut Step<T, N>,
     ) -> Result<Switching<T>, DynamicsError<T>> {
-        match self.conditions.decided.list.is_empty() {
-            true => Ok(Switching::Nowhere),
-            false => self.switch_some(mechanism, step),
+        if self.conditions.decided.list.is_empty() {
+            return Ok(Switching::Nowhere);
         }
-    }
-
-    #[inline(never)]
-    fn switch_some(
-        &mut self,
-        mechanism: &dyn Mechanism<T, N, R>,
-        step: &mut Step<T, N>,
-    ) -> Result<Switching<T>, DynamicsError<T>> {
         let core = &mut *self;
         let found = switching()(&mut Attempt {
             core,
@@ -143,9 +129,12 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
         let slid = self.conditions.decided.slid(state.t)?;
         let mut vectors = [[T::zero(); N]; ROOM + 1];
         let room = vectors.as_flattened_mut();
-        let weights = sliding()(&slid, N, room, &mut |sides, rates, out| {
+        let mut accelerate = |sides, rates: &mut [_], out: &mut [_]| {
             self.acceleration_on(sides, mechanism, state, rates, out)
-        })?;
+        };
+        let weights = weighing()(&slid, N, room, &mut accelerate, |function| function.rate)?;
+        let (acceleration, changes) = room.split_at_mut(N);
+        slid.add(&weights, changes, acceleration);
         for (&index, weight) in slid.list().iter().zip(weights) {
             self.conditions.decided.weights[index] = weight;
         }
@@ -192,9 +181,11 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
         let slid = self.conditions.decided.slid(state.t)?;
         let mut vectors = [[T::zero(); N]; ROOM + 1];
         let (mut v, room) = (state.v, vectors.as_flattened_mut());
-        striking()(&slid, v.as_mut_slice(), room, &mut |sides, rates, out| {
+        let mut accelerate = |sides, rates: &mut [_], out: &mut [_]| {
             self.acceleration_on(sides, mechanism, state, rates, out)
-        })?;
+        };
+        let weights = weighing()(&slid, N, room, &mut accelerate, |function| function.value)?;
+        slid.add(&weights, &room[N..], v.as_mut_slice());
         self.decide(self.conditions.decided.sides);
         let off = |v: SVector<T, N>| {
             let mut values = [Switch::default(); Sides::ROOM];

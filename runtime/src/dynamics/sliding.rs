@@ -61,37 +61,11 @@ impl Slid {
         &self.list[..self.count]
     }
 
-    /// The acceleration of `n` coordinates, in the first of `ROOM + 1` vectors, and the
-    /// weights.
-    pub(crate) fn slide<T: Real>(
-        &self,
-        n: usize,
-        vectors: &mut [T],
-        accelerate: Accelerate<'_, T>,
-    ) -> Result<Weights<T>, DynamicsError<T>> {
-        let weights = self.weigh(n, vectors, accelerate, |function| function.rate)?;
-        let (acceleration, changes) = vectors.split_at_mut(n);
-        self.add(&weights, changes, acceleration);
-        Ok(weights)
-    }
-
-    /// Changes a velocity so that the functions are zero, as an impulse of the forces that hold
-    /// them there does.
-    pub(crate) fn strike<T: Real>(
-        &self,
-        velocity: &mut [T],
-        vectors: &mut [T],
-        accelerate: Accelerate<'_, T>,
-    ) -> Result<(), DynamicsError<T>> {
-        let n = velocity.len();
-        let weights = self.weigh(n, vectors, accelerate, |function| function.value)?;
-        self.add(&weights, &vectors[n..], velocity);
-        Ok(())
-    }
-
     /// The weights with which the conditions' changes of the acceleration make up for what the
-    /// functions are off. Writes the acceleration below zero, then those changes.
-    fn weigh<T: Real>(
+    /// functions are off: of a motion that slides their rates, and of an impulse of the forces that
+    /// hold it their values. Writes the acceleration of `n` coordinates below zero, then those
+    /// changes, into `ROOM + 1` vectors.
+    pub(crate) fn weigh<T: Real>(
         &self,
         n: usize,
         vectors: &mut [T],
@@ -122,7 +96,7 @@ impl Slid {
     }
 
     /// Adds weighted changes to a vector.
-    fn add<T: Real>(&self, weights: &Weights<T>, changes: &[T], sum: &mut [T]) {
+    pub(super) fn add<T: Real>(&self, weights: &Weights<T>, changes: &[T], sum: &mut [T]) {
         let n = sum.len();
         for (weight, change) in weights[..self.count].iter().zip(changes.chunks(n)) {
             add_scaled(sum, *weight, change);
@@ -171,13 +145,12 @@ fn solve<T: Real>(table: &mut [[T; ROOM + 1]; ROOM], count: usize) -> [T; ROOM] 
 }
 
 compiled_once! {
-    /// [`Slid::slide`].
-    pub(super) fn sliding<T>:
-        fn(&Slid, usize, &mut [T], Accelerate<'_, T>) -> Result<Weights<T>, DynamicsError<T>> =
-        Slid::slide;
-
-    /// [`Slid::strike`].
-    pub(super) fn striking<T>:
-        fn(&Slid, &mut [T], &mut [T], Accelerate<'_, T>) -> Result<(), DynamicsError<T>> =
-        Slid::strike;
+    /// [`Slid::weigh`].
+    pub(super) fn weighing<T>: fn(
+        &Slid,
+        usize,
+        &mut [T],
+        Accelerate<'_, T>,
+        fn(Switch<T>) -> T,
+    ) -> Result<Weights<T>, DynamicsError<T>> = Slid::weigh;
 }
