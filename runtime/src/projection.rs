@@ -251,7 +251,7 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
     pub(crate) fn residual(&self, residual: &SVector<T, R>) -> (T, usize) {
         let mut worst = (T::zero(), 0);
         for row in 0..R {
-            let size = residual[row].abs() * self.rows.scale(row);
+            let size = residual[row].abs() * self.rows.scale[row];
             if size > worst.0 || !size.is_finite() {
                 worst = (size, row);
             }

@@ -124,7 +124,7 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
 
     /// The right-hand sides of rows scaled to size one.
     pub(crate) fn scaled(&self, right: &SVector<T, R>) -> [T; R] {
-        let mut scaled = *self.rows.scales().0;
+        let mut scaled = self.rows.scale;
         for (scale, right) in scaled.iter_mut().zip(right.as_slice()) {
             *scale *= *right;
         }

@@ -188,7 +188,7 @@ where
         solver.prepare(&self.mechanism, state)?;
         self.mechanism.position(state, &mut solver.position);
         solver.factorise_metric(&self.mechanism, Source::Position, state.t)?;
-        let full = solver.rows.regular();
+        let full = solver.rows.regular;
         let squared = solver.factorise_constraints(Source::Position, Which::All);
         if passes(squared, window()) {
             return Ok(Rank {

@@ -88,7 +88,7 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
             &mut self.acceleration
         };
         if !mechanism.structure().weighed.is_empty() {
-            solved.weights = SVector::from(self.rows.weights());
+            solved.weights = SVector::from(self.rows.weight);
         }
         self.emitted = match N + R <= IN_REGISTERS {
             true => mechanism.acceleration(state, solved),
@@ -148,7 +148,7 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
         before: Option<T>,
     ) -> Correcting<T> {
         if !mechanism.structure().weighed.is_empty() {
-            self.correction.weights = SVector::from(self.rows.weights());
+            self.correction.weights = SVector::from(self.rows.weight);
         }
         let provided = match N + R <= IN_REGISTERS {
             true => mechanism.correction(state, &mut self.correction),
@@ -204,7 +204,7 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
         let [residual] = &residual.data.0;
         let (mut worst, mut sum) = (T::zero(), T::zero());
         for (row, residual) in residual.iter().enumerate() {
-            let size = (*residual * self.rows.scale(row)).abs();
+            let size = (*residual * self.rows.scale[row]).abs();
             sum += size;
             if size > worst {
                 worst = size;
@@ -250,7 +250,7 @@ fn squared_sine<T: Real, const N: usize, const R: usize>(
     }
     let mut smallest = T::one();
     for row in 0..R {
-        let ratio = pivots.row_pivots.data.0[0][row] * rows.inverse_size(row);
+        let ratio = pivots.row_pivots.data.0[0][row] * rows.inverse_size[row];
         // NaN is not valid.
         valid &= ratio < T::from_f64(f64::INFINITY);
         if ratio < smallest {

@@ -157,11 +157,10 @@ pub(super) fn known<'a, T: Real, const N: usize, const R: usize>(
     rows: &'a Rows<T, R>,
     coordinate_scale: CoordinateScale<T>,
 ) -> Known<'a, T> {
-    let (scale, holonomic) = rows.scales();
     Known {
         factor: metric.factor.as_slice(),
-        scale,
-        holonomic,
+        scale: &rows.scale,
+        holonomic: &rows.holonomic,
         coordinate_scale,
     }
 }

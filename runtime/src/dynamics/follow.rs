@@ -95,9 +95,7 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
     /// magnitude, and then have a chart.
     #[inline]
     pub(crate) fn is_regular_by_form(&self) -> bool {
-        self.rows.are_independent_by_form()
-            && self.settings.form == Form::Reduced
-            && self.session.chart.is_none()
+        self.rows.by_form && self.settings.form == Form::Reduced && self.session.chart.is_none()
     }
 
     /// Whether the derivative at the end of a step is another one as soon as the step is accepted: off
@@ -422,7 +420,7 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
         }
         self.observe_coordinate_scale(mechanism, &step.end)?;
         if self.session.chart.is_none() {
-            self.metric.observe_pivots();
+            self.metric.view().observe_pivots();
         }
         self.session.sine = Some(self.session.trial.end.sqrt());
         self.session.near = self.session.trial.near;

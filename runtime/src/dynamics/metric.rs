@@ -286,11 +286,6 @@ impl<T: Real, const N: usize> Metric<T, N> {
         })
     }
 
-    /// Takes note of how large the pivots of the metric are at an accepted state.
-    pub(crate) fn observe_pivots(&mut self) {
-        self.view().observe_pivots();
-    }
-
     /// `M + AᵀWA` of the rows that take part.
     #[inline(never)]
     fn sum<const R: usize>(
@@ -300,9 +295,8 @@ impl<T: Real, const N: usize> Metric<T, N> {
         rows: &Rows<T, R>,
     ) -> SMatrix<T, N, N> {
         let mut sum = *mass;
-        let weights = rows.weights();
         self.parts
-            .add_to(sum.as_mut_slice(), jacobian.as_slice(), &weights);
+            .add_to(sum.as_mut_slice(), jacobian.as_slice(), &rows.weight);
         sum
     }
 
@@ -318,7 +312,7 @@ impl<T: Real, const N: usize> Metric<T, N> {
         let mut force = force.data.0[0];
         if self.parts.takes != Takes::None {
             for row in (0..R).filter(|row| self.parts.take(*row)) {
-                let share = rows.weight(row) * bias[row];
+                let share = rows.weight[row] * bias[row];
                 for (j, entry) in force.iter_mut().enumerate() {
                     *entry += share * jacobian[(row, j)];
                 }

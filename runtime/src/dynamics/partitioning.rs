@@ -32,7 +32,7 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
         let mut jacobian = self.terms.jacobian;
         for column in &mut jacobian.data.0 {
             for (row, entry) in column.iter_mut().enumerate() {
-                *entry *= self.rows.scale(row);
+                *entry *= self.rows.scale[row];
             }
         }
         let mut right = self.scaled(&bias);

@@ -37,7 +37,7 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
         mechanism: &dyn Mechanism<T, N, R>,
         state: &State<T, N>,
     ) -> Result<(), DynamicsError<T>> {
-        if self.rows.are_independent_by_form() {
+        if self.rows.by_form {
             self.rows.view().observe_all();
             return Ok(());
         }
@@ -94,7 +94,7 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
         self.factorise_metric(mechanism, Source::Terms, state.t)?;
         let right = self.scaled(&bias);
         let mut w = self.free_acceleration(&bias);
-        let limit = self.rows.regular();
+        let limit = self.rows.regular;
         self.decompose(Source::Terms, state.t, &mut |decomposition| {
             decomposition.decide(limit, negligible(), &right, &mut w);
         })?;

@@ -37,28 +37,31 @@ fn choose_most_independent<T: Real>(
 #[derive(Clone, Debug)]
 pub(crate) struct Rows<T, const R: usize> {
     /// Squared reference sizes.
-    size: [T; R],
+    pub(crate) size: [T; R],
     /// Bound on the ratio of a row's squared sizes with and without the coupling of the
     /// coordinates by M; beyond it M is nearly singular, and the size is ignored.
     coupling: [T; R],
-    /// The inverses of the squared reference sizes.
-    inverse_size: [T; R],
-    /// What rows are multiplied by to have size one.
-    scale: [T; R],
+    /// The inverses of the squared reference sizes; infinite for a row that was never anything but
+    /// zero, and one for a row that emitted code leaves out.
+    pub(crate) inverse_size: [T; R],
+    /// What rows are multiplied by to have size one; zero for a row that was never anything but
+    /// zero.
+    pub(crate) scale: [T; R],
     /// Weights `W` of the rows in an augmented metric; zero until known.
-    weight: [T; R],
+    pub(crate) weight: [T; R],
     /// Whether the weights are those of the heaviest masses.
     uneven: bool,
-    holonomic: [bool; R],
+    /// Which rows restrict positions.
+    pub(crate) holonomic: [bool; R],
     /// Whether the rows are independent at all positions, by their form.
-    by_form: bool,
+    pub(crate) by_form: bool,
     /// The rows that emitted code leaves out.
     left_out: &'static [usize],
     active: [usize; R],
     active_count: usize,
     holonomic_count: usize,
     /// Rank of `A` at regular positions, as far as it is known.
-    regular: usize,
+    pub(crate) regular: usize,
 }
 
 impl<T: Real, const R: usize> Rows<T, R> {
@@ -91,12 +94,6 @@ impl<T: Real, const R: usize> Rows<T, R> {
         rows
     }
 
-    /// Whether the rows are independent at all positions, by their form.
-    #[inline]
-    pub(crate) fn are_independent_by_form(&self) -> bool {
-        self.by_form
-    }
-
     /// Takes note of the squared size of a row, which is `Σ aⱼ²/mⱼⱼ` in the metric of each
     /// coordinate alone.
     #[inline]
@@ -116,35 +113,10 @@ impl<T: Real, const R: usize> Rows<T, R> {
         self.view().observe(row, size, alone);
     }
 
-    /// Squared reference size of a row.
-    #[inline]
-    pub(crate) fn size(&self, row: usize) -> T {
-        self.size[row]
-    }
-
-    /// The inverse of the squared reference size; infinite for a row that was never anything but
-    /// zero, and one for a row that emitted code leaves out.
-    #[inline]
-    pub(crate) fn inverse_size(&self, row: usize) -> T {
-        self.inverse_size[row]
-    }
-
     /// Whether no row was never anything but zero.
     #[inline]
     pub(crate) fn all_have_sizes(&self) -> bool {
         self.size.iter().all(|size| *size > T::zero())
-    }
-
-    /// What a row is multiplied by to have size one; zero for a row that was
-    /// never anything but zero.
-    #[inline]
-    pub(crate) fn scale(&self, row: usize) -> T {
-        self.scale[row]
-    }
-
-    /// Rank at regular positions.
-    pub(crate) fn regular(&self) -> usize {
-        self.regular
     }
 
     /// Whether all rows are independent at regular positions.
@@ -190,17 +162,6 @@ impl<T: Real, const R: usize> Rows<T, R> {
         Some((if others { chosen } else { known }, count))
     }
 
-    /// The weights of the rows in an augmented metric.
-    pub(crate) fn weights(&self) -> [T; R] {
-        self.weight
-    }
-
-    /// The weight of a row in an augmented metric.
-    #[inline]
-    pub(crate) fn weight(&self, row: usize) -> T {
-        self.weight[row]
-    }
-
     /// Takes note of the weights of rows in an augmented metric.
     pub(crate) fn weigh(&mut self, inertia: &[T], jacobian: &[T]) {
         if !self.uneven {
@@ -224,11 +185,6 @@ impl<T: Real, const R: usize> Rows<T, R> {
             holonomic_count: &mut self.holonomic_count,
             regular: &mut self.regular,
         }
-    }
-
-    /// What rows are multiplied by to have size one, and which of them restrict positions.
-    pub(crate) fn scales(&self) -> (&[T; R], &[bool]) {
-        (&self.scale, &self.holonomic)
     }
 }
 

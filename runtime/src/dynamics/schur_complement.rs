@@ -46,7 +46,7 @@ impl<T: Real, const N: usize, const R: usize> SchurComplement<T, N, R> {
             self.vectors.data.0[k] = metric.lift(jacobian, row);
         }
         self.gram
-            .factorise(&self.vectors, count, |k| rows.size(list[k]))
+            .factorise(&self.vectors, count, |k| rows.size[list[k]])
     }
 
     /// Adds to `w` the shortest change after which `A U⁻ᵀ w = right`.

@@ -45,7 +45,7 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
             let told = (regular(), regular());
             decomposition.share(&lifted, told, &mut multipliers, &mut unknown);
         })?;
-        if rank < self.rows.regular() {
+        if rank < self.rows.regular {
             let (at, along) = self.along_sheet(mechanism, state);
             (multipliers, unknown) = ([T::zero(); R], [false; R]);
             let (mut solver, workspace, _) = self.lend(mechanism);
@@ -59,7 +59,7 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
             )?;
         }
         Ok(column(|row| {
-            (!unknown[row]).then_some(multipliers[row] * self.rows.scale(row))
+            (!unknown[row]).then_some(multipliers[row] * self.rows.scale[row])
         }))
     }
 

@@ -52,7 +52,7 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
     /// Takes note of the mean sizes of the rows over some turned positions.
     #[inline(never)]
     pub(super) fn sample_sizes(&mut self, mechanism: &dyn Mechanism<T, N, R>, state: &State<T, N>) {
-        let by_form = self.rows.are_independent_by_form();
+        let by_form = self.rows.by_form;
         let (mut solver, workspace, _) = self.lend(mechanism);
         sampling()(&mut solver, state.at(), by_form, &workspace);
     }
@@ -78,7 +78,7 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
         if factorised.is_ok() {
             self.observe_sizes(mechanism);
         }
-        let mut without = (0..R).filter(|row| self.rows.scale(*row) == T::zero());
+        let mut without = (0..R).filter(|row| self.rows.scale[*row] == T::zero());
         let residual = |row: usize| self.position.residual[row].abs();
         let holds = |row: &usize| residual(*row) <= excusable();
         match without.find(|row| !holds(row)) {

@@ -108,7 +108,7 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
 
     /// How many directions the constraints leave free at regular states.
     pub(crate) fn freedoms(&self) -> usize {
-        N - self.rows.regular()
+        N - self.rows.regular
     }
 
     /// Factorises the metric at the state whose terms are in a buffer.

@@ -245,7 +245,7 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
             return Err(self.not_regular(mechanism, end)?);
         }
         if changes != Some(0) && !form.passes() {
-            let rank = self.rows.regular() - changes.unwrap_or(1);
+            let rank = self.rows.regular - changes.unwrap_or(1);
             return Err(DynamicsError::SingularPosition {
                 t: end.t,
                 form,

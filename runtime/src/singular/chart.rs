@@ -105,7 +105,7 @@ impl<T: Real, const N: usize, const R: usize> Chart<T, N, R> {
             let coordinates = at.coordinates..at.coordinates + part.n;
             part.take(base.q.as_slice(), &mut chart.q[coordinates.clone()]);
             part.take(sizes, &mut chart.sizes[coordinates.clone()]);
-            part.take_rows(rows.scales().0, &mut chart.row_scale[at.rows..][..part.r]);
+            part.take_rows(&rows.scale, &mut chart.row_scale[at.rows..][..part.r]);
             let chosen = &chart.rows[at.chosen..][..part.n - freedoms];
             let column_places = &mut chart.column_places[coordinates.clone()];
             order_columns(part, jacobian, chosen, column_places, workspace);

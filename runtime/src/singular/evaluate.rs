@@ -24,7 +24,7 @@ impl<T: Real, const N: usize, const R: usize> SolverView<'_, T, N, R> {
             equations: &mut self.equations,
             chart: chart.view(),
             nodes: self.nodes.slices(),
-            holonomic: self.rows.scales().1,
+            holonomic: &self.rows.holonomic,
             weakest: self.weakest,
         };
         work(&mut sheets, workspace);
