@@ -33,6 +33,7 @@ pub enum Command {
     /// Print the equations of motion derived from a description
     Show(Show),
     /// Simulate a mechanism: rows of numbers to a file, a summary to the terminal
+    #[command(alias = "run")]
     Simulate(Box<Simulate>),
     /// Run the experiments of Phong & Hoang (2012): figures, and numbers beside
     /// exact ones

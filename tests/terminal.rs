@@ -35,6 +35,7 @@ fn every_name_that_is_nearly_right_is_answered_with_the_right_one() {
         ("export slider_cranck --to c", "slider_crank"),
         ("workprecision slider_cranck", "slider_crank"),
         ("landing slider_cranck", "slider_crank"),
+        ("run slider_cranck", "slider_crank"),
         ("export slider_crank --to rst", "rust"),
         ("completions bsh", "bash"),
         (&format!("{run} --methd rk4"), "--method"),
