@@ -48,7 +48,7 @@ impl Display for Singularity {
             Self::Drifted => {
                 "nearly depends on the others, and the motion has drifted too far off the \
                  constraints to tell on which branch it goes on; keep it there by projection, or \
-                 take a smaller tolerance"
+                 take larger gains or a smaller tolerance"
             }
             Self::Vanishing => {
                 "has a gradient that vanishes not only here but wherever it holds, so that it \

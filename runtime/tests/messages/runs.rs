@@ -185,7 +185,7 @@ pub const MOTIONS: &[Case] = &[
         },
         "at t = … s the constraint `g = 0` (line 3) nearly depends on the others, and the motion \
          has drifted too far off the constraints to tell on which branch it goes on; keep it \
-         there by projection, or take a smaller tolerance",
+         there by projection, or take larger gains or a smaller tolerance",
     ),
     (
         "Singularity::Undetermined",
