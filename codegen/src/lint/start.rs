@@ -73,13 +73,8 @@ pub fn unassembled(numbers: &Numbers, found: &mut Diagnostics) {
                 "correct the constraints or the lengths in them, or guess nearer with `~`",
             ),
         };
-        warn(
-            numbers,
-            message,
-            help,
-            rows.iter().copied().zip(errors),
-            found,
-        );
+        let errors = rows.iter().copied().zip(errors);
+        warn(numbers, (message, help), false, errors, found);
     }
 }
 
@@ -131,7 +126,8 @@ fn unassembled_velocities(numbers: &Numbers, place: &Place, found: &mut Diagnost
                 "correct the constraints that contradict one another here",
             ),
         };
-        return warn(numbers, message, help, rows.into_iter().zip(errors), found);
+        let errors = rows.into_iter().zip(errors);
+        return warn(numbers, (message, help), true, errors, found);
     }
     branch::untold(numbers, place, (&v, &free), found);
 }
@@ -142,20 +138,22 @@ fn of_start(numbers: &Numbers, rows: &[usize]) -> bool {
     rows.iter().any(|row| *row >= constraints)
 }
 
-/// Warns at the first entry of the start block (or the first constraint), with the
-/// error of each equation beside it.
+/// Warns at the first entry of the start block that gives a position, or a `velocity` (or the
+/// first one of all, or the first constraint), with the error of each equation beside it.
 fn warn(
     numbers: &Numbers,
-    message: &str,
-    help: &str,
+    (message, help): (&str, &str),
+    velocity: bool,
     errors: impl Iterator<Item = (usize, f64)>,
     found: &mut Diagnostics,
 ) {
     let mechanism = numbers.mechanism;
-    let starts = mechanism.starts.iter().map(|start| start.span);
+    let starts = || mechanism.starts.iter();
+    let held = starts().filter(|start| start.held && start.velocity == velocity);
+    let entries = held.chain(starts()).map(|start| start.span);
     let constraints = mechanism.constraints.iter();
     let constraints = constraints.chain(&mechanism.start_equations);
-    let Some(span) = starts.chain(constraints.map(|row| row.span)).next() else {
+    let Some(span) = entries.chain(constraints.map(|row| row.span)).next() else {
         return;
     };
     let errors: Vec<(usize, f64)> = errors.collect();
