@@ -8,6 +8,7 @@ mod dynamics;
 mod equations;
 mod error;
 mod integrator;
+mod kink;
 mod linalg;
 mod model;
 mod natural_size;

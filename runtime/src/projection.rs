@@ -5,17 +5,12 @@
 //!      kinetic energy, and the nearest velocity with `A q̇ + b = 0` there.
 //!
 //! Not here: what to do where rows of `A` are near-dependent
-//! ([`crate::dynamics`], `follow.rs`).
+//! ([`crate::dynamics`], `follow.rs`), and where their gradients jump (`kink.rs`).
 
 use crate::dynamics::{CoordinateScale, Core, MAX_ITERATIONS, Source, Which};
-use crate::linalg::peak_of;
 use crate::tolerance::{contraction, critical, negligible, passes, regular, round_off, window};
-use crate::{DynamicsError, Mechanism, Real, Singularity, State};
+use crate::{DynamicsError, Mechanism, Real, State};
 use nalgebra::SVector;
-
-/// A projection that moves positions by more than this part of what the step moved them was not
-/// made necessary by its error.
-const JUMP: f64 = 0.25;
 
 impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
     /// Projects a state, if the settings say so, past another sheet where that is nearer.
@@ -36,9 +31,7 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
             self.project_onto_sheet(&mechanism, &mut placed)?;
         } else if self.is_projected() {
             self.project_regular(mechanism, &mut placed)?;
-            if self.session.tolerance.is_some() {
-                self.verify_smooth(&mechanism, state, &placed)?;
-            }
+            self.verify_smooth(&mechanism, state, &placed)?;
             if !self.rows.all_independent() {
                 self.verify_velocity(&mechanism, &placed)?;
             }
@@ -70,48 +63,6 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
         };
         self.session.trial.end = squared;
         Ok(())
-    }
-
-    /// Refuses a projection that moves a state farther than its error: the gradient of a
-    /// constraint jumps within the step.
-    fn verify_smooth(
-        &mut self,
-        mechanism: &dyn Mechanism<T, N, R>,
-        state: &State<T, N>,
-        placed: &State<T, N>,
-    ) -> Result<(), DynamicsError<T>> {
-        let Some(base) = &self.session.base else {
-            return Ok(());
-        };
-        let length = |x: SVector<T, N>| peak_of(x.as_slice());
-        let noise = round_off::<T>() * critical() * self.coordinate_scale.size;
-        let most = length(state.q - base.q) * T::from_f64(JUMP) + noise;
-        let fastest = length(state.v - base.v) + regular::<T>() * length(placed.v);
-        let (moved, changed) = (length(placed.q - state.q), length(placed.v - state.v));
-        let leaps = changed > fastest && (changed - fastest) * (state.t - base.t) > noise;
-        // A comparison with NaN is false: what is not finite is refused elsewhere.
-        match moved > most || leaps {
-            true => Err(self.kink(mechanism, state)),
-            false => Ok(()),
-        }
-    }
-
-    /// The error of velocities that a constraint does not allow where a step ends.
-    #[cold]
-    #[inline(never)]
-    fn kink(
-        &mut self,
-        mechanism: &dyn Mechanism<T, N, R>,
-        state: &State<T, N>,
-    ) -> DynamicsError<T> {
-        mechanism.position(state, &mut self.position);
-        let (_, row) = self.residual(&self.position.speed(&state.v));
-        DynamicsError::SingularConfiguration {
-            t: state.t,
-            kind: Singularity::Kink,
-            row,
-            structure: mechanism.structure(),
-        }
     }
 
     /// Refuses velocities that redundant rows contradict: what is projected satisfies the chosen

@@ -259,6 +259,11 @@ impl<T: Real> Control<T> {
         h < self.longest * T::EPSILON.powf(T::from_f64(CREEPING)) || self.short > MOST_SHORT
     }
 
+    /// Whether a step is so short that its error can only be round-off.
+    pub(crate) fn is_short(&self, h: T) -> bool {
+        h < self.longest * T::EPSILON.powf(T::from_f64(SHORT))
+    }
+
     /// Where the next trial step ends: at the bound if it is near, half-way
     /// there if it is less than two steps away, so that no tiny step remains.
     pub(crate) fn end(&self, t: T, bound: T) -> Result<T, IntegrateError<T>> {
@@ -317,7 +322,7 @@ impl<T: Real> Control<T> {
         self.last_error = error.max(T::from_f64(REMEMBERED_ERROR));
         self.rejected = false;
         self.longest = self.longest.max(h);
-        let is_short = h < self.longest * T::EPSILON.powf(T::from_f64(SHORT));
+        let is_short = self.is_short(h);
         self.short = if is_short { self.short + 1 } else { 0 };
         true
     }

@@ -17,7 +17,7 @@ use super::step::Step;
 use super::tableau::Tableau;
 use crate::stack::with_room;
 use crate::system::escalating;
-use crate::{DynamicsError, Real, State, Switching, System};
+use crate::{DynamicsError, Real, Singularity, State, Switching, System};
 use nalgebra::SVector;
 
 /// The first step should change the derivative by this fraction (Hairer's guess).
@@ -239,7 +239,7 @@ impl<T: Real, const N: usize> Steps<T, N> {
             let error = match adaptive.trial(method, system, step, (end, inside)) {
                 Ok(Some(error)) => error,
                 Ok(None) => continue,
-                Err(failure) if is_final(&failure, || adaptive.control.creeps(end - t)) => {
+                Err(failure) if is_final(&failure, &adaptive.control, end - t) => {
                     return Err(failure);
                 }
                 Err(failure) => {
@@ -401,10 +401,13 @@ impl<T: Real, const N: usize> Adaptive<T, N> {
 }
 
 /// Whether a shorter step can't help.
-fn is_final<T>(failure: &IntegrateError<T>, creeps: impl Fn() -> bool) -> bool {
+fn is_final<T: Real>(failure: &IntegrateError<T>, control: &Control<T>, h: T) -> bool {
     match failure {
         IntegrateError::Dynamics(DynamicsError::SingularPosition { .. }) => true,
-        IntegrateError::Dynamics(DynamicsError::SingularConfiguration { .. }) => creeps(),
+        IntegrateError::Dynamics(DynamicsError::SingularConfiguration { kind, .. }) => match kind {
+            Singularity::Kink => control.is_short(h),
+            _ => control.creeps(h),
+        },
         _ => false,
     }
 }

@@ -35,7 +35,7 @@ mod tests;
 mod triangle;
 mod workspace;
 
-pub(crate) use block::{Block, largest_of, peak_of};
+pub(crate) use block::{Block, largest_of};
 pub(crate) use cholesky::{
     Cholesky, NotDefinite, diagonal, is_definite, length, lift_row, lift_rows, multiply_upper,
     multiply_upper_transposed, set_units, solve_upper, solve_upper_transposed,
