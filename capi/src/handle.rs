@@ -28,12 +28,9 @@ pub(crate) struct Body<M, const N: usize, const R: usize> {
     engine: UnsafeCell<Engine<M, N, R>>,
 }
 
-impl<M, const N: usize, const R: usize> Body<M, N, R> {
+impl<M: Embedded<N, R>, const N: usize, const R: usize> Body<M, N, R> {
     /// Puts an engine into a place of its own.
-    pub(crate) fn boxed(interface: &'static Interface, engine: Engine<M, N, R>) -> *mut Handle
-    where
-        M: 'static,
-    {
+    pub(crate) fn boxed(interface: &'static Interface, engine: Engine<M, N, R>) -> *mut Handle {
         let body = Box::new(Self {
             handle: Handle {
                 interface,
@@ -55,7 +52,7 @@ impl<M, const N: usize, const R: usize> Body<M, N, R> {
     /// not freed.
     pub(crate) unsafe fn of<'a>(handle: *mut Handle) -> Option<&'a Self> {
         // SAFETY: as promised; what is inside is only ever shared, but for the engine, which
-        // is borrowed by `enter` alone.
+        // is borrowed by `lend` alone.
         unsafe { handle.cast::<Self>().as_ref() }
     }
 
@@ -64,10 +61,7 @@ impl<M, const N: usize, const R: usize> Body<M, N, R> {
     /// # Safety
     ///
     /// The handle is null or came from the table of any mechanism, and was not freed.
-    pub(crate) unsafe fn is_of(handle: *mut Handle) -> bool
-    where
-        M: 'static,
-    {
+    pub(crate) unsafe fn is_of(handle: *mut Handle) -> bool {
         // SAFETY: as promised; the handle is what every body begins with.
         unsafe { handle.as_ref() }.is_none_or(|handle| handle.kind == TypeId::of::<M>())
     }
@@ -77,18 +71,31 @@ impl<M, const N: usize, const R: usize> Body<M, N, R> {
     /// # Safety
     ///
     /// As [`of`](Self::of), and nobody uses it any more.
-    pub(crate) unsafe fn free(handle: *mut Handle) {
+    pub(crate) unsafe fn drop_boxed(handle: *mut Handle) {
         if !handle.is_null() {
             // SAFETY: it was made by `Box::into_raw` in `boxed`.
             drop(unsafe { Box::from_raw(handle.cast::<Self>()) });
         }
     }
 
+    /// Does something with the engine of a handle, alone.
+    ///
+    /// # Safety
+    ///
+    /// As [`of`](Self::of).
+    pub(crate) unsafe fn enter(
+        handle: *mut Handle,
+        act: impl FnOnce(&mut Engine<M, N, R>) -> Outcome,
+    ) -> Status {
+        // SAFETY: as promised.
+        match unsafe { Self::of(handle) } {
+            Some(body) => body.lend(act),
+            None => Status::Null,
+        }
+    }
+
     /// Does something with the engine, alone.
-    pub(crate) fn enter(&self, act: impl FnOnce(&mut Engine<M, N, R>) -> Outcome) -> Status
-    where
-        M: Embedded<N, R>,
-    {
+    pub(crate) fn lend(&self, act: impl FnOnce(&mut Engine<M, N, R>) -> Outcome) -> Status {
         if self.broken.load(Ordering::Relaxed) {
             return Status::Panic;
         }

@@ -1,33 +1,11 @@
 //! Pointers of C, checked and turned into what Rust wants.
 //!
 //! In:  pointers, and what the header promises of them.
-//! Out: an engine to work with, numbers to read and to write.
+//! Out: numbers to read and to write.
 
-use crate::Embedded;
-use crate::abi::Handle;
-use crate::engine::{Engine, Outcome};
-use crate::handle::Body;
+use crate::engine::Outcome;
 use crate::status::Status;
 use core::slice;
-
-/// Enters the engine of a handle.
-///
-/// # Safety
-///
-/// The handle is what the header says.
-pub(crate) unsafe fn enter<M, const N: usize, const R: usize>(
-    handle: *mut Handle,
-    act: impl FnOnce(&mut Engine<M, N, R>) -> Outcome,
-) -> Status
-where
-    M: Embedded<N, R>,
-{
-    // SAFETY: as promised.
-    match unsafe { Body::<M, N, R>::of(handle) } {
-        Some(body) => body.enter(act),
-        None => Status::Null,
-    }
-}
 
 /// Writes a value to where a pointer leads.
 ///

@@ -6,9 +6,9 @@
 use crate::Embedded;
 use crate::abi::{Choices, Handle, Summary, Watch};
 use crate::callback::Callback;
-use crate::engine::{Engine, Outcome};
+use crate::engine::Engine;
 use crate::handle::Body;
-use crate::pointer::{enter, give, write};
+use crate::pointer::{give, write};
 use crate::status::Status;
 use crate::watch::{Columns, Ended, Listeners, MOST_INSIDE, Sheet};
 use bricard_runtime::{
@@ -101,32 +101,6 @@ fn chosen(choices: &Choices) -> Result<Options<f64>, &'static str> {
     Ok(options)
 }
 
-pub(crate) unsafe extern "C" fn options<M: Embedded<N, R>, const N: usize, const R: usize>(
-    handle: *mut Handle,
-    out: *mut Choices,
-) -> Status {
-    // SAFETY: the header's promise for `out`.
-    let act = |engine: &mut Engine<M, N, R>| unsafe { give(out, shown(engine.options())) };
-    // SAFETY: the header's promise.
-    unsafe { enter(handle, act) }
-}
-
-pub(crate) unsafe extern "C" fn set_options<M: Embedded<N, R>, const N: usize, const R: usize>(
-    handle: *mut Handle,
-    choices: *const Choices,
-) -> Status {
-    let act = |engine: &mut Engine<M, N, R>| {
-        // SAFETY: the header's promise for `choices`.
-        let choices = unsafe { choices.as_ref() }.ok_or(Status::Null)?;
-        match chosen(choices) {
-            Ok(options) => engine.set_options(options),
-            Err(reason) => engine.refuse(Status::Argument, &reason),
-        }
-    };
-    // SAFETY: the header's promise.
-    unsafe { enter(handle, act) }
-}
-
 /// What is wrong with a watch; `None` if it can be used.
 fn refusal(watch: &Watch, width: usize) -> Option<&'static str> {
     let room = watch.room / width.max(1);
@@ -210,52 +184,6 @@ fn told<const N: usize>(done: &Done<f64, N>) -> Summary {
     }
 }
 
-pub(crate) unsafe extern "C" fn run<M: Embedded<N, R>, const N: usize, const R: usize>(
-    handle: *mut Handle,
-    until: f64,
-    watch: *mut Watch,
-    summary: *mut Summary,
-) -> Status {
-    // SAFETY: the header's promise.
-    let Some(body) = (unsafe { Body::<M, N, R>::of(handle) }) else {
-        return Status::Null;
-    };
-    let mut early = Status::Ok;
-    let act = |engine: &mut Engine<M, N, R>| {
-        // SAFETY: the header's promise for `watch`. It is read here and written at the end:
-        // functions of the program may look at it meanwhile.
-        let plan = unsafe { watch.as_ref() }.copied();
-        let structure = engine.structure();
-        let listening = match &plan {
-            None => None,
-            // SAFETY: the header's promise for what is in it.
-            Some(plan) => match unsafe { listeners(plan, structure, N) } {
-                Ok(listening) => Some(listening),
-                Err((status, reason)) => return engine.refuse(status, &reason),
-            },
-        };
-        let mut listening = listening;
-        let (result, done) = engine.run(until, listening.as_mut(), &body.stop);
-        body.stop.store(false, Ordering::Relaxed);
-        if let Some(listening) = &listening {
-            // SAFETY: as above; `listening` is only there if `watch` is.
-            unsafe { (*watch).written = listening.sheet.written };
-        }
-        if let Some(done) = done
-            && !summary.is_null()
-        {
-            // SAFETY: the header's promise for `summary`.
-            unsafe { give(summary, told(&done))? };
-        }
-        early = ended(result?);
-        Ok(())
-    };
-    match body.enter(act) {
-        Status::Ok => early,
-        status => status,
-    }
-}
-
 fn ended(ended: Option<Ended>) -> Status {
     match ended {
         None => Status::Ok,
@@ -264,33 +192,95 @@ fn ended(ended: Option<Ended>) -> Status {
     }
 }
 
-pub(crate) unsafe extern "C" fn stop<M: Embedded<N, R>, const N: usize, const R: usize>(
-    handle: *mut Handle,
-) -> Status {
-    // SAFETY: the header's promise; the flag may be set while a call is at work.
-    match unsafe { Body::<M, N, R>::of(handle) } {
-        Some(body) => {
-            body.stop.store(true, Ordering::Relaxed);
-            Status::Ok
-        }
-        None => Status::Null,
+impl<M: Embedded<N, R>, const N: usize, const R: usize> Body<M, N, R> {
+    pub(crate) unsafe extern "C" fn options(handle: *mut Handle, out: *mut Choices) -> Status {
+        // SAFETY: the header's promise, also for `out`.
+        unsafe { Self::enter(handle, |engine| give(out, shown(engine.options()))) }
     }
-}
 
-pub(crate) unsafe extern "C" fn row_size<M: Embedded<N, R>, const N: usize, const R: usize>(
-    handle: *mut Handle,
-    columns: u32,
-    out: *mut usize,
-) -> Status {
-    let act = |engine: &mut Engine<M, N, R>| {
-        let structure = engine.structure();
-        let width: Outcome<usize> = match Columns::of(columns) {
-            Some(columns) => Ok(columns.width(structure, N)),
-            None => engine.refuse(Status::Argument, &"there are no such columns"),
+    pub(crate) unsafe extern "C" fn set_options(
+        handle: *mut Handle,
+        choices: *const Choices,
+    ) -> Status {
+        // SAFETY: the header's promise, also for `choices`.
+        unsafe {
+            Self::enter(handle, |engine| {
+                match chosen(choices.as_ref().ok_or(Status::Null)?) {
+                    Ok(options) => engine.set_options(options),
+                    Err(reason) => engine.refuse(Status::Argument, &reason),
+                }
+            })
+        }
+    }
+
+    pub(crate) unsafe extern "C" fn run(
+        handle: *mut Handle,
+        until: f64,
+        watch: *mut Watch,
+        summary: *mut Summary,
+    ) -> Status {
+        // SAFETY: the header's promise.
+        let Some(body) = (unsafe { Self::of(handle) }) else {
+            return Status::Null;
         };
-        // SAFETY: the header's promise for `out`.
-        unsafe { give(out, width?) }
-    };
-    // SAFETY: the header's promise.
-    unsafe { enter(handle, act) }
+        let mut early = Status::Ok;
+        let act = |engine: &mut Engine<M, N, R>| {
+            // SAFETY: the header's promise for `watch`. It is read here and written at the end:
+            // functions of the program may look at it meanwhile.
+            let plan = unsafe { watch.as_ref() }.copied();
+            let structure = engine.structure();
+            let listening = match &plan {
+                None => None,
+                // SAFETY: the header's promise for what is in it.
+                Some(plan) => match unsafe { listeners(plan, structure, N) } {
+                    Ok(listening) => Some(listening),
+                    Err((status, reason)) => return engine.refuse(status, &reason),
+                },
+            };
+            let mut listening = listening;
+            let (result, done) = engine.run(until, listening.as_mut(), &body.stop);
+            body.stop.store(false, Ordering::Relaxed);
+            if let Some(listening) = &listening {
+                // SAFETY: as above; `listening` is only there if `watch` is.
+                unsafe { (*watch).written = listening.sheet.written };
+            }
+            if let Some(done) = done
+                && !summary.is_null()
+            {
+                // SAFETY: the header's promise for `summary`.
+                unsafe { give(summary, told(&done))? };
+            }
+            early = ended(result?);
+            Ok(())
+        };
+        match body.lend(act) {
+            Status::Ok => early,
+            status => status,
+        }
+    }
+
+    pub(crate) unsafe extern "C" fn stop(handle: *mut Handle) -> Status {
+        // SAFETY: the header's promise; the flag may be set while a call is at work.
+        match unsafe { Self::of(handle) } {
+            Some(body) => {
+                body.stop.store(true, Ordering::Relaxed);
+                Status::Ok
+            }
+            None => Status::Null,
+        }
+    }
+
+    pub(crate) unsafe extern "C" fn row_size(
+        handle: *mut Handle,
+        columns: u32,
+        out: *mut usize,
+    ) -> Status {
+        // SAFETY: the header's promise, also for `out`.
+        unsafe {
+            Self::enter(handle, |engine| match Columns::of(columns) {
+                Some(columns) => give(out, columns.width(engine.structure(), N)),
+                None => engine.refuse(Status::Argument, &"there are no such columns"),
+            })
+        }
+    }
 }
