@@ -4,15 +4,13 @@
 //! All tests but those about the cache itself share one, in the target folder: what is
 //! common to all programs is compiled once for each version of the sources.
 
-use crate::command::{Ran, cache, folder, read};
+use crate::command::{Ran, cache, command, end, folder, interrupt, read, start, wait_until, words};
 use std::fs;
 use std::path::{Path, PathBuf};
-use std::process::{Command, Stdio};
+use std::process::Command;
 use std::thread;
-use std::time::{Duration, Instant, SystemTime};
+use std::time::{Duration, SystemTime};
 
-/// Long enough for any machine to compile a description.
-const PATIENCE: Duration = Duration::from_secs(240);
 /// Bytes of rows after which a run has come to the end of a segment.
 const SEGMENTS: u64 = 300_000;
 
@@ -35,11 +33,8 @@ fn pendulum(name: &str, length: f64) -> String {
 
 /// The command in a folder, with the shared cache.
 fn bricard(folder: &Path, arguments: &[&str]) -> Command {
-    let mut command = Command::new(env!("CARGO_BIN_EXE_bricard"));
-    command
-        .current_dir(folder)
-        .env("XDG_CACHE_HOME", cache())
-        .args(arguments);
+    let mut command = command();
+    command.current_dir(folder).args(arguments);
     command
 }
 
@@ -50,9 +45,7 @@ fn run(folder: &Path, arguments: &[&str]) -> Ran {
 
 /// Runs the command, which has to succeed.
 fn done(folder: &Path, arguments: &[&str]) -> Ran {
-    let ran = run(folder, arguments);
-    assert_eq!(ran.status, Some(0), "{arguments:?}: {}", ran.err);
-    ran
+    run(folder, arguments).done()
 }
 
 fn write(folder: &Path, name: &str, text: &str) {
@@ -91,9 +84,7 @@ fn a_file_moves_as_the_mechanism_of_the_library_does() {
     for options in [
         &["--until", "3", "--every", "0.1"][..],
         &["--until", "2", "--step", "0.01", "--form", "full"],
-        &[
-            "--until", "1", "--method", "radau5", "--set", "m1=2", "--start", "q1=1.2",
-        ],
+        &words("--until 1 --method radau5 --set m1=2 --start q1=1.2"),
     ] {
         let arguments = |name| [&["simulate", name], options, &columns].concat();
         let (named, given) = (
@@ -136,14 +127,7 @@ fn only_an_edited_file_is_compiled_again() {
     write(&inner, "once.mech", &pendulum("Once", 0.5));
     let ran = done(
         &folder,
-        &[
-            "simulate",
-            "inner/once.mech",
-            "--until",
-            "1",
-            "--every",
-            "0.25",
-        ],
+        &words("simulate inner/once.mech --until 1 --every 0.25"),
     );
     assert!(!compiles(&ran, "inner/once.mech"), "{}", ran.err);
     let after: Vec<_> = programs("once-").iter().map(modified).collect();
@@ -154,16 +138,7 @@ fn only_an_edited_file_is_compiled_again() {
     let ran = done(&folder, &simulate);
     assert!(compiles(&ran, "once.mech"), "{}", ran.err);
     assert_ne!(ran.out, first.out);
-    let set = [
-        "simulate",
-        "inner/once.mech",
-        "--until",
-        "1",
-        "--every",
-        "0.25",
-        "--set",
-        "L=0.7",
-    ];
+    let set = words("simulate inner/once.mech --until 1 --every 0.25 --set L=0.7");
     assert_eq!(ran.out, done(&folder, &set).out);
 }
 
@@ -184,7 +159,7 @@ fn a_parameter_that_gets_another_number_in_the_file_needs_no_compiler() {
         &pendulum("Parameter", -0.7).replace("kg = 1", "kg = -1"),
     );
     let wrong = run(&folder, &simulate);
-    assert!(wrong.err.contains("told.mech:"), "{}", wrong.err);
+    wrong.says(&["told.mech:"]);
 }
 
 #[test]
@@ -201,9 +176,7 @@ fn a_quiet_run_says_nothing_but_errors() {
     let quiet = [&simulate[..], &["--quiet"]].concat();
     assert_eq!(done(&folder, &quiet).err, "");
     let loud = done(&folder, &simulate);
-    for said in ["`idle` is never used", "steps"] {
-        assert!(loud.err.contains(said), "{}", loud.err);
-    }
+    loud.says(&["`idle` is never used", "steps"]);
     let wrong = run(&folder, &[&quiet[..], &["--columns", "idle"]].concat());
     assert_eq!(wrong.status, Some(2));
     assert!(wrong.err.starts_with("error: "), "{}", wrong.err);
@@ -224,21 +197,13 @@ fn a_wrong_file_gets_the_messages_of_check() {
         simulate.env("PATH", path.unwrap_or_default());
         let ran = read(simulate.output().expect("the command starts"));
         assert_eq!((ran.status, &ran.err), (checked.status, &checked.err));
-        assert!(ran.err.contains("`m` is not declared"), "{}", ran.err);
+        ran.says(&["`m` is not declared"]);
     }
     let missing = run(&folder, &["simulate", "nowhere.mech"]);
     assert_eq!(missing.status, Some(1));
-    assert!(
-        missing.err.contains("could not read nowhere.mech"),
-        "{}",
-        missing.err
-    );
+    missing.says(&["could not read nowhere.mech"]);
     let name = run(&folder, &["simulate", "slider_crnk"]);
-    assert!(
-        name.err.contains("did you mean `slider_crank`?"),
-        "{}",
-        name.err
-    );
+    name.says(&["did you mean `slider_crank`?"]);
 }
 
 #[test]
@@ -250,7 +215,7 @@ fn what_stands_in_the_way_of_compiling_is_said() {
     let refused = |command: &mut Command, said: &str| {
         let ran = read(command.output().expect("the command starts"));
         assert_eq!(ran.status, Some(1), "{}", ran.err);
-        assert!(ran.err.contains(said), "{}", ran.err);
+        ran.says(&[said]);
     };
     let simulate = || bricard(&folder, &["simulate", file]);
     refused(simulate().env("PATH", ""), "`rustc` was not found");
@@ -292,22 +257,10 @@ fn two_commands_compile_one_file_once() {
     let folder = folder("twice");
     let new = format!("{}// {:?}\n", pendulum("Twice", 0.5), SystemTime::now());
     write(&folder, "twice.mech", &new);
-    let start = || {
-        bricard(&folder, &["simulate", "twice.mech", "--until", "1"])
-            .stdout(Stdio::piped())
-            .stderr(Stdio::piped())
-            .spawn()
-            .expect("the command starts")
-    };
-    let both = [start(), start()].map(|child| read(child.wait_with_output().expect("it ends")));
+    let simulate = ["simulate", "twice.mech", "--until", "1"];
+    let both = [(); 2].map(|()| start(&mut bricard(&folder, &simulate)));
+    let both = both.map(|child| end(child).done());
     let [one, other] = &both;
-    assert_eq!(
-        [one.status, other.status],
-        [Some(0); 2],
-        "{}{}",
-        one.err,
-        other.err
-    );
     assert_eq!(one.out, other.out);
     let compiled = both.iter().filter(|ran| compiles(ran, "twice.mech"));
     assert_eq!(compiled.count(), 1, "{}{}", one.err, other.err);
@@ -322,16 +275,11 @@ fn the_cache_is_shown_and_cleared() {
         read(command.output().expect("the command starts"))
     };
     let ran = command(&["cache"]);
-    assert!(
-        ran.out.contains("nothing has been compiled yet"),
-        "{}",
-        ran.out
-    );
+    ran.prints(&["nothing has been compiled yet"]);
     let program = folder.join("bricard/0.1.0-abc/programs/crane-123");
     fs::create_dir_all(&program).expect("the folder is ours");
     fs::write(program.join("mechanism"), vec![0; 2_500_000]).expect("the folder is ours");
-    let ran = command(&["cache"]);
-    assert_eq!(ran.status, Some(0), "{}", ran.err);
+    let ran = command(&["cache"]).done();
     let line = |begin: &str| {
         let mut lines = ran.out.lines().map(str::trim);
         let found = lines.rfind(|line| line.starts_with(begin));
@@ -340,7 +288,7 @@ fn the_cache_is_shown_and_cleared() {
     assert!(line("crane-123").ends_with(" 2.5"), "{}", ran.out);
     assert!(line("0.1.0-abc").ends_with(" 0.0"), "{}", ran.out);
     let ran = command(&["cache", "--clear"]);
-    assert!(ran.out.contains("2.5 MB were removed"), "{}", ran.out);
+    ran.prints(&["2.5 MB were removed"]);
     assert!(!program.exists());
     assert!(folder.is_dir());
 }
@@ -356,30 +304,22 @@ fn a_run_by_path_goes_on_from_its_checkpoint_unless_the_file_is_edited() {
         &folder,
         &with(&["--out", "whole.csv", "--checkpoint", "whole"]),
     );
-    let child = bricard(
+    let child = start(&mut bricard(
         &folder,
         &with(&["--out", "parts.csv", "--checkpoint", "parts"]),
-    )
-    .stderr(Stdio::piped())
-    .spawn()
-    .expect("the command starts");
+    ));
     let [whole, parts] = ["whole.csv", "parts.csv"].map(|name| folder.join(name));
     wait_until("a segment", || {
         fs::metadata(&parts).is_ok_and(|file| file.len() > SEGMENTS)
     });
-    press_ctrl_c(&child);
-    let ran = read(child.wait_with_output().expect("it ends"));
-    assert!(ran.err.contains("`--resume parts`"), "{}", ran.err);
+    let ran = interrupt(child);
+    ran.says(&["`--resume parts`"]);
     let torn = fs::read(&parts).expect("the rows are kept");
     let resume = with(&["--out", "parts.csv", "--resume", "parts"]);
     write(&folder, "p.mech", &pendulum("Resumed", 0.6));
     let refused = run(&folder, &resume);
     assert_eq!(refused.status, Some(2), "{}", refused.err);
-    assert!(
-        refused.err.contains("one of another run"),
-        "{}",
-        refused.err
-    );
+    refused.says(&["one of another run"]);
     write(&folder, "p.mech", &pendulum("Resumed", 0.5));
     done(&folder, &resume);
     let [one, two] = [&whole, &parts].map(|path| fs::read(path).expect("rows"));
@@ -390,43 +330,24 @@ fn a_run_by_path_goes_on_from_its_checkpoint_unless_the_file_is_edited() {
     assert!(one == two, "the bytes differ");
 }
 
-/// Waits until something is the case.
-fn wait_until(what: &str, mut is_so: impl FnMut() -> bool) {
-    let begun = Instant::now();
-    while !is_so() {
-        assert!(begun.elapsed() < PATIENCE, "{what} never came");
-        thread::sleep(Duration::from_millis(10));
-    }
-}
-
-#[cfg(unix)]
-fn press_ctrl_c(child: &std::process::Child) {
-    let id = child.id().to_string();
-    let pressed = Command::new("kill").args(["-INT", &id]).status();
-    assert!(pressed.is_ok_and(|status| status.success()));
-}
-
 #[cfg(unix)]
 #[test]
 fn an_interrupted_run_by_path_keeps_its_rows_and_says_what_was_done() {
     let folder = folder("interrupted_by_path");
     write(&folder, "long.mech", &pendulum("Long", 0.5));
     let long = ["simulate", "long.mech", "--until", "1e7", "--step", "0.01"];
-    let child = bricard(&folder, &[&long[..], &["--out", "rows.csv"]].concat())
-        .stderr(Stdio::piped())
-        .spawn()
-        .expect("the command starts");
+    let child = start(&mut bricard(
+        &folder,
+        &[&long[..], &["--out", "rows.csv"]].concat(),
+    ));
     let rows = folder.join("rows.csv");
     wait_until("a row", || {
         fs::metadata(&rows).is_ok_and(|file| file.len() > 0)
     });
-    press_ctrl_c(&child);
-    let ran = read(child.wait_with_output().expect("it ends"));
-    assert_eq!(ran.status, Some(130), "{}", ran.err);
+    let ran = interrupt(child);
     let rows = fs::read_to_string(&rows).expect("the rows are kept");
     let said = format!("the {} rows computed before", rows.lines().count() - 1);
-    assert!(ran.err.contains(&said), "{}", ran.err);
-    assert!(ran.err.contains("energy drift"), "{}", ran.err);
+    ran.says(&[&said, "energy drift"]);
 }
 
 #[cfg(unix)]
@@ -434,13 +355,10 @@ fn an_interrupted_run_by_path_keeps_its_rows_and_says_what_was_done() {
 fn a_watched_file_runs_again_when_it_is_saved() {
     let folder = folder("watched");
     write(&folder, "seen.mech", &pendulum("Seen", 0.5));
-    let child = bricard(
+    let child = start(&mut bricard(
         &folder,
         &["watch", "seen.mech", "--until", "0.5", "--out", "rows.csv"],
-    )
-    .stderr(Stdio::piped())
-    .spawn()
-    .expect("the command starts");
+    ));
     let rows = || fs::read_to_string(folder.join("rows.csv")).unwrap_or_default();
     // The end of a run is its last row.
     let is_whole = |rows: &str| {
@@ -455,22 +373,14 @@ fn a_watched_file_runs_again_when_it_is_saved() {
     thread::sleep(Duration::from_millis(300));
     write(&folder, "seen.mech", &pendulum("Seen", 0.9));
     wait_until("the second run", || rows() != first && is_whole(&rows()));
-    press_ctrl_c(&child);
-    let ran = read(child.wait_with_output().expect("it ends"));
-    assert_eq!(ran.status, Some(130), "{}", ran.err);
-    assert!(ran.err.contains("the description is wrong"), "{}", ran.err);
-    assert!(
-        ran.err.contains("waiting until seen.mech is saved"),
-        "{}",
-        ran.err
-    );
+    let ran = interrupt(child);
+    ran.says(&[
+        "the description is wrong",
+        "waiting until seen.mech is saved",
+    ]);
     let name = run(&folder, &["watch", "slider_crank"]);
     assert_eq!(name.status, Some(2), "{}", name.err);
-    assert!(
-        name.err.contains("takes the file of a description"),
-        "{}",
-        name.err
-    );
+    name.says(&["takes the file of a description"]);
 }
 
 #[cfg(unix)]
@@ -482,9 +392,7 @@ fn a_watched_file_runs_again_when_what_it_reads_is_saved() {
     write(&folder, "pulled.mech", source);
     write(&folder, "pull.csv", "0, 1\n1, 1\n");
     let arguments = ["watch", "pulled.mech", "--until", "1", "--out", "rows.csv"];
-    let mut child = bricard(&folder, &arguments);
-    let child = child.stderr(Stdio::piped()).spawn();
-    let child = child.expect("the command starts");
+    let child = start(&mut bricard(&folder, &arguments));
     // A constant force F moves the unit mass by F/2 in the first second.
     let end = || {
         let rows = fs::read_to_string(folder.join("rows.csv")).unwrap_or_default();
@@ -497,9 +405,7 @@ fn a_watched_file_runs_again_when_what_it_reads_is_saved() {
     thread::sleep(Duration::from_millis(300));
     write(&folder, "pull.csv", "0, 4\n1, 4\n");
     wait_until("the second run", || moved(2.0));
-    press_ctrl_c(&child);
-    let ran = read(child.wait_with_output().expect("it ends"));
-    assert_eq!(ran.status, Some(130), "{}", ran.err);
+    interrupt(child);
 }
 
 #[test]
@@ -510,16 +416,7 @@ fn a_file_is_compared_with_many_digits_as_the_mechanism_of_the_library_is() {
     let file = "slider_crank.mech";
     fs::copy(library.join(file), folder.join(file)).expect("it is in the library");
     let measure = |name| {
-        let options = [
-            "--until",
-            "0.5",
-            "--methods",
-            "dp5",
-            "--set",
-            "m1=0.3",
-            "--csv",
-            "a.csv",
-        ];
+        let options = words("--until 0.5 --methods dp5 --set m1=0.3 --csv a.csv");
         done(&folder, &[&["workprecision", name], &options[..]].concat());
         let table = fs::read_to_string(folder.join("a.csv")).expect("it was written");
         let without_time = |line: &str| {
@@ -587,21 +484,12 @@ fn an_input_follows_a_formula_of_the_command_line_as_it_would_one_of_its_file() 
 
     let wrong = run_of("plain.mech", &["--set", "u=3*sin(x)"]);
     assert_eq!(wrong.status, Some(1));
-    assert!(
-        wrong.err.contains("with `--set 'u=3*sin(x)'`"),
-        "{}",
-        wrong.err
-    );
-    assert!(wrong.err.contains("`x` is not declared"), "{}", wrong.err);
+    wrong.says(&["with `--set 'u=3*sin(x)'`", "`x` is not declared"]);
     let unit = run_of("plain.mech", &["--set", "u=L*sin(q)"]);
-    assert!(unit.err.contains("N*m"), "{}", unit.err);
+    unit.says(&["N*m"]);
     let parameter = run_of("plain.mech", &["--set", "m=sin(t)"]);
     assert_eq!(parameter.status, Some(2));
-    assert!(
-        parameter.err.contains("a parameter is a number"),
-        "{}",
-        parameter.err
-    );
+    parameter.says(&["a parameter is a number"]);
     for (set, said) in [
         (
             "p[0]=sin(t)",
@@ -611,14 +499,10 @@ fn an_input_follows_a_formula_of_the_command_line_as_it_would_one_of_its_file() 
     ] {
         let part = run_of("plain.mech", &["--set", set]);
         assert_eq!(part.status, Some(2));
-        assert!(part.err.contains(said), "{}", part.err);
+        part.says(&[said]);
     }
     let nobody = run_of("plain.mech", &["--set", "w=sin(t)"]);
-    assert!(
-        nobody.err.contains("there is no parameter or input `w`"),
-        "{}",
-        nobody.err
-    );
+    nobody.says(&["there is no parameter or input `w`"]);
 }
 
 #[test]
@@ -649,12 +533,8 @@ fn a_file_of_numbers_is_a_part_of_its_description() {
         &[&arguments[..], &["--out", "./told.csv"]].concat(),
     );
     let said = "--out would replace ./told.csv, which the mechanism is read from";
-    assert!(over.err.contains(said), "{}", over.err);
+    over.says(&[said]);
     write(&folder, "told.csv", "time,torque\n0,0\n1,a\n");
     let wrong = run(&folder, &["check", "told.mech"]);
-    assert!(
-        wrong.err.contains("line 3, column 2: `a` is not a number"),
-        "{}",
-        wrong.err
-    );
+    wrong.says(&["line 3, column 2: `a` is not a number"]);
 }

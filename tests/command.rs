@@ -1,9 +1,15 @@
 //! The command, run as a user would: status, messages, what is written and what
 //! is left alone.
 
+use std::ffi::OsStr;
+use std::fmt::Debug;
 use std::fs;
 use std::path::{Path, PathBuf};
-use std::process::{Command, Output, Stdio};
+use std::process::{Child, Command, Output, Stdio};
+use std::time::{Duration, Instant};
+
+/// Long enough for any machine to compile a description, and to write rows of it.
+const PATIENCE: Duration = Duration::from_secs(240);
 
 /// What a run of the command gave.
 pub struct Ran {
@@ -12,17 +18,81 @@ pub struct Ran {
     pub err: String,
 }
 
+impl Ran {
+    /// The same, of a command that has to succeed.
+    #[track_caller]
+    pub fn done(self) -> Self {
+        assert_eq!(self.status, Some(0), "{}\n{}", self.out, self.err);
+        self
+    }
+
+    /// Checks that all of some messages are there.
+    #[track_caller]
+    pub fn says(&self, messages: &[&str]) {
+        for said in messages {
+            assert!(self.err.contains(said), "no `{said}` in\n{}", self.err);
+        }
+    }
+
+    /// Checks that all of some texts are in what is printed.
+    #[track_caller]
+    pub fn prints(&self, texts: &[&str]) {
+        for text in texts {
+            assert!(self.out.contains(text), "no `{text}` in\n{}", self.out);
+        }
+    }
+}
+
 /// The folder in which tests keep compiled descriptions.
 pub fn cache() -> PathBuf {
     Path::new(env!("CARGO_TARGET_TMPDIR")).join("cache")
 }
 
-pub fn bricard(arguments: &[&str]) -> Ran {
-    let output = Command::new(env!("CARGO_BIN_EXE_bricard"))
-        .env("XDG_CACHE_HOME", cache())
-        .args(arguments)
-        .output();
+/// The command, with the cache of all tests.
+pub fn command() -> Command {
+    let mut command = Command::new(env!("CARGO_BIN_EXE_bricard"));
+    command.env("XDG_CACHE_HOME", cache());
+    command
+}
+
+pub fn bricard<W: AsRef<OsStr>>(arguments: &[W]) -> Ran {
+    let output = command().args(arguments).output();
     read(output.expect("the command starts"))
+}
+
+/// The words of a command line.
+pub fn words(line: &str) -> Vec<&str> {
+    line.split_whitespace().collect()
+}
+
+/// Starts a command, of which what it writes is kept.
+pub fn start(command: &mut Command) -> Child {
+    let command = command.stdout(Stdio::piped()).stderr(Stdio::piped());
+    command.spawn().expect("the command starts")
+}
+
+/// Waits for the end of a command.
+pub fn end(child: Child) -> Ran {
+    read(child.wait_with_output().expect("the command ends"))
+}
+
+/// Waits until something is the case.
+pub fn wait_until(what: &str, mut is_so: impl FnMut() -> bool) {
+    let begun = Instant::now();
+    while !is_so() {
+        assert!(begun.elapsed() < PATIENCE, "{what} never came");
+        std::thread::sleep(Duration::from_millis(1));
+    }
+}
+
+/// Presses Ctrl-C, which has to end a command.
+pub fn interrupt(child: Child) -> Ran {
+    let id = child.id().to_string();
+    let pressed = Command::new("kill").args(["-INT", &id]).status();
+    assert!(pressed.is_ok_and(|status| status.success()));
+    let ran = end(child);
+    assert_eq!(ran.status, Some(130), "{}", ran.err);
+    ran
 }
 
 pub fn read(output: Output) -> Ran {
@@ -45,7 +115,7 @@ pub fn folder(test: &str) -> PathBuf {
 }
 
 /// Runs the command, which has to fail with a status and say all of `said`.
-pub fn check_refused(arguments: &[&str], status: i32, said: &[&str]) {
+pub fn check_refused<W: AsRef<OsStr> + Debug>(arguments: &[W], status: i32, said: &[&str]) {
     let ran = bricard(arguments);
     assert_eq!(ran.status, Some(status), "{arguments:?} said {}", ran.err);
     for part in said {
@@ -74,8 +144,7 @@ fn column(csv: &str, name: &str) -> Vec<f64> {
 
 #[test]
 fn every_mechanism_is_listed_with_its_sizes() {
-    let ran = bricard(&["list"]);
-    assert_eq!(ran.status, Some(0));
+    let ran = bricard(&["list"]).done();
     for name in bricard::NAMES {
         assert!(
             ran.out.lines().any(|line| line.starts_with(name)),
@@ -195,16 +264,12 @@ fn options_that_contradict_each_other_are_refused() {
         2,
         &["`watch` has no use for --live", "bricard simulate"],
     );
-    let help = bricard(&["watch", "--help"]);
-    assert!(help.out.contains("<FILE.mech>"), "{}", help.out);
+    bricard(&["watch", "--help"]).prints(&["<FILE.mech>"]);
     let unknown = [&name[..], &["--method", "rk5"]].concat();
     check_refused(&unknown, 2, &["rk4, dp5, dop853"]);
     check_refused(&["simulat"], 2, &["simulate"]);
-    let greeted = bricard(&[]);
-    assert_eq!(greeted.status, Some(0), "{}", greeted.err);
-    for first in ["bricard list", "bricard simulate", "bricard new"] {
-        assert!(greeted.out.contains(first), "{}", greeted.out);
-    }
+    let greeted = bricard::<&str>(&[]).done();
+    greeted.prints(&["bricard list", "bricard simulate", "bricard new"]);
 }
 
 #[test]
@@ -255,33 +320,10 @@ fn an_impossible_start_names_the_equations_and_leaves_an_old_file_alone() {
 
 #[test]
 fn rows_have_names_and_begin_at_the_held_start() {
-    let start = [
-        "--start",
-        "q1=pi/3",
-        "--start",
-        "der(q1)=-2",
-        "--set",
-        "m3=1/4",
-    ];
-    let arguments = [
-        &[
-            "simulate",
-            "slider_crank",
-            "--until",
-            "0.1",
-            "--every",
-            "0.05",
-        ],
-        &start[..],
-    ];
-    let ran = bricard(
-        &[
-            &arguments.concat()[..],
-            &["--columns", "energy,rank,reactions,x2,energy,r(q1)"],
-        ]
-        .concat(),
-    );
-    assert_eq!(ran.status, Some(0), "{}", ran.err);
+    let run = words("simulate slider_crank --until 0.1 --every 0.05 --columns");
+    let columns = words("energy,rank,reactions,x2,energy,r(q1)");
+    let start = words("--start q1=pi/3 --start der(q1)=-2 --set m3=1/4");
+    let ran = bricard(&[run, columns, start].concat()).done();
     let header = "t,q1,q2,q3,der(q1),der(q2),der(q3),energy,rank,r(q1),r(q2),r(q3),x2";
     assert_eq!(ran.out.lines().next(), Some(header));
     assert_eq!(column(&ran.out, "t"), [0.0, 0.05, 0.1]);
@@ -295,24 +337,12 @@ fn rows_have_names_and_begin_at_the_held_start() {
     );
     let energy = column(&ran.out, "energy");
     assert!((energy[2] - energy[0]).abs() < 1e-7, "{energy:?}");
-    assert!(
-        ran.err.contains("passages through singular positions"),
-        "{}",
-        ran.err
-    );
+    ran.says(&["passages through singular positions"]);
 }
 
 #[test]
 fn printed_numbers_are_the_shortest_that_read_back() {
-    let ran = bricard(&[
-        "simulate",
-        "double_pendulum",
-        "--until",
-        "1",
-        "--step",
-        "0.01",
-    ]);
-    assert_eq!(ran.status, Some(0), "{}", ran.err);
+    let ran = bricard(&words("simulate double_pendulum --until 1 --step 0.01")).done();
     let mut count = 0;
     for cell in ran.out.lines().skip(1).flat_map(|line| line.split(',')) {
         let value: f64 = cell
@@ -327,17 +357,7 @@ fn printed_numbers_are_the_shortest_that_read_back() {
 
 #[test]
 fn the_same_run_prints_the_same_bits() {
-    let run = || {
-        bricard(&[
-            "simulate",
-            "double_four_bar",
-            "--until",
-            "2",
-            "--method",
-            "dp5",
-        ])
-        .out
-    };
+    let run = || bricard(&words("simulate double_four_bar --until 2 --method dp5")).out;
     assert_eq!(run(), run());
 }
 
@@ -368,8 +388,7 @@ fn a_form_that_ends_at_a_singular_position_keeps_its_rows() {
 fn a_plot_is_a_whole_svg_with_axes_and_names() {
     let file = folder("plot").join("run.svg");
     let path = file.to_string_lossy();
-    let ran = bricard(&["simulate", "slider_crank", "--until", "2", "--plot", &path]);
-    assert_eq!(ran.status, Some(0), "{}", ran.err);
+    let ran = bricard(&["simulate", "slider_crank", "--until", "2", "--plot", &path]).done();
     assert_eq!(ran.out, "", "rows go nowhere unless they are asked for");
     let svg = fs::read_to_string(&file).unwrap_or_default();
     for part in [
@@ -386,8 +405,7 @@ fn a_plot_is_a_whole_svg_with_axes_and_names() {
 
 #[test]
 fn equations_are_shown_entry_by_entry() {
-    let ran = bricard(&["show", "slider_crank"]);
-    assert_eq!(ran.status, Some(0), "{}", ran.err);
+    let ran = bricard(&["show", "slider_crank"]).done();
     let lines: Vec<&str> = ran.out.lines().collect();
     for line in [
         "M[1,3] = 0",
@@ -402,7 +420,7 @@ fn equations_are_shown_entry_by_entry() {
     let entries = |symbol: &str| lines.iter().filter(|line| line.starts_with(symbol)).count();
     let counts = ["M[", "C[", "Cv[", "h[", "Q[", "G[", "p2["].map(entries);
     assert_eq!(counts, [9, 9, 3, 3, 3, 6, 2]);
-    assert!(ran.out.contains("1 degree of freedom"));
+    ran.prints(&["1 degree of freedom"]);
     assert!(
         ran.out.contains("sine–cosine pairs"),
         "operations are counted"
@@ -418,8 +436,7 @@ fn entries_that_nobody_would_read_to_their_end_are_shown_by_their_length() {
         "/tests/fixtures/chains/long_chain.mech"
     );
     for notation in [&["show", chain][..], &["show", chain, "--latex"]] {
-        let ran = bricard(notation);
-        assert_eq!(ran.status, Some(0), "{}", ran.err);
+        let ran = bricard(notation).done();
         let lines: Vec<&str> = ran.out.lines().collect();
         let long = |line: &&&str| line.contains("too long to be written out: ");
         assert!(lines.iter().any(|line| long(&line)), "nothing is too long");
@@ -432,16 +449,13 @@ fn entries_that_nobody_would_read_to_their_end_are_shown_by_their_length() {
 
 #[test]
 fn programs_are_shown_operation_by_operation() {
-    let ran = bricard(&["show", "slider_crank", "--programs"]);
-    assert_eq!(ran.status, Some(0), "{}", ran.err);
-    for line in [
+    let ran = bricard(&["show", "slider_crank", "--programs"]).done();
+    ran.prints(&[
         "terms: ",
         "%9 = sin(q1)\n",
         "mass[3,3] = m3\n",
         "\nenergy: ",
-    ] {
-        assert!(ran.out.contains(line), "no `{line}` in {}", ran.out);
-    }
+    ]);
     check_refused(
         &["show", "slider_crank", "--programs", "--latex"],
         2,
@@ -451,10 +465,8 @@ fn programs_are_shown_operation_by_operation() {
 
 #[test]
 fn equations_are_shown_as_latex() {
-    let ran = bricard(&["show", "cart_pole", "--latex"]);
-    assert_eq!(ran.status, Some(0), "{}", ran.err);
-    assert!(ran.out.contains("\\begin{align*}"));
-    assert!(ran.out.contains("\\sin \\phi"));
+    let ran = bricard(&["show", "cart_pole", "--latex"]).done();
+    ran.prints(&["\\begin{align*}", "\\sin \\phi"]);
     assert!(!ran.out.contains("der("), "velocities have dots");
     assert_eq!(
         ran.out.matches("\\begin{").count(),
@@ -469,13 +481,11 @@ fn a_description_outside_the_library_is_shown_and_checked() {
                   kinetic 1/2*J*der(q)^2; potential -c*cos(q); }";
     fs::write(&file, source).expect("the folder is ours");
     let path = file.to_string_lossy();
-    let shown = bricard(&["show", &path]);
-    assert_eq!(shown.status, Some(0), "{}", shown.err);
-    assert!(shown.out.contains("M[1,1] = J"), "{}", shown.out);
-    assert!(shown.out.contains("; 1 operation a factorisation"));
-    let checked = bricard(&["check", &path]);
-    assert_eq!(checked.status, Some(0), "{}", checked.err);
-    assert!(checked.out.contains("in order"));
+    let shown = bricard(&["show", &path]).done();
+    shown.prints(&["M[1,1] = J"]);
+    shown.prints(&["; 1 operation a factorisation"]);
+    let checked = bricard(&["check", &path]).done();
+    checked.prints(&["in order"]);
 }
 
 #[test]
@@ -494,39 +504,24 @@ fn a_wrong_description_is_answered_with_places() {
 
 #[test]
 fn a_reader_that_leaves_early_is_no_failure() {
-    let mut child = Command::new(env!("CARGO_BIN_EXE_bricard"))
-        .args([
-            "simulate",
-            "double_pendulum",
-            "--until",
-            "500",
-            "--step",
-            "0.01",
-        ])
-        .stdout(Stdio::piped())
-        .stderr(Stdio::piped())
-        .spawn()
-        .expect("the command starts");
+    let long = words("simulate double_pendulum --until 500 --step 0.01");
+    let mut child = start(command().args(long));
     drop(child.stdout.take());
-    let ran = read(child.wait_with_output().expect("the command ends"));
-    assert_eq!(ran.status, Some(0));
+    let ran = end(child).done();
     assert_eq!(ran.err, "");
 }
 
 #[test]
 fn the_papers_experiments_are_reproduced_within_their_bounds() {
     let folder = folder("reproduce");
-    let ran = bricard(&["reproduce", "--out", &folder.to_string_lossy()]);
-    assert_eq!(ran.status, Some(0), "{}\n{}", ran.out, ran.err);
+    let ran = bricard(&["reproduce", "--out", &folder.to_string_lossy()]).done();
     let exact = "exact  0.684  1.095  2.463  2.874  4.242  4.653  6.020  6.432  7.799";
-    for part in [
+    ran.prints(&[
         exact,
         "double four-bar, 8 s: 9",
         "The paper speaks of 6",
         "every bound is kept",
-    ] {
-        assert!(ran.out.contains(part), "no `{part}` in\n{}", ran.out);
-    }
+    ]);
     for figure in ["2", "3", "4", "6", "6_configurations"] {
         let svg = fs::read_to_string(folder.join(format!("figure_{figure}.svg")));
         assert!(
@@ -555,9 +550,9 @@ fn time_is_measured_over_errors_that_fall_with_the_tolerance() {
         &csv_path,
         "--out",
         &png_path,
-    ]);
-    assert_eq!(ran.status, Some(0), "{}", ran.err);
-    assert!(ran.out.contains("dop853, multipliers ends"), "{}", ran.out);
+    ])
+    .done();
+    ran.prints(&["dop853, multipliers ends"]);
     let text = fs::read_to_string(csv).expect("the CSV");
     let errors = column(&text, "error");
     let (first, last) = (errors[0], errors[errors.len() - 1]);
@@ -570,9 +565,8 @@ fn time_is_measured_over_errors_that_fall_with_the_tolerance() {
 #[test]
 fn the_benchmark_problems_keep_their_bounds() {
     let folder = folder("validate");
-    let ran = bricard(&["validate", "--quick", "--out", &folder.to_string_lossy()]);
-    assert_eq!(ran.status, Some(0), "{}\n{}", ran.out, ran.err);
-    assert!(ran.out.contains("every bound is kept"), "{}", ran.out);
+    let ran = bricard(&["validate", "--quick", "--out", &folder.to_string_lossy()]).done();
+    ran.prints(&["every bound is kept"]);
     let markdown = fs::read_to_string(folder.join("validation.md")).expect("a table is written");
     assert!(
         markdown.contains("| A04 Bricard, 30 coordinates |"),
@@ -588,60 +582,30 @@ fn the_benchmark_problems_keep_their_bounds() {
 #[cfg(target_os = "linux")]
 #[test]
 fn a_full_disk_is_said_and_fails_the_run() {
-    let run = [
-        "simulate",
-        "double_pendulum",
-        "--until",
-        "100",
-        "--out",
-        "/dev/full",
-    ];
+    let run = words("simulate double_pendulum --until 100 --out /dev/full");
     check_refused(&run, 1, &["could not write /dev/full to its end"]);
 }
-
-/// Long enough for any machine to write rows before it is interrupted.
-#[cfg(unix)]
-const PATIENCE: std::time::Duration = std::time::Duration::from_secs(60);
 
 #[cfg(unix)]
 #[test]
 fn an_interrupted_run_keeps_its_rows_and_says_so() {
     let csv = folder("interrupted").join("rows.csv");
-    let child = Command::new(env!("CARGO_BIN_EXE_bricard"))
-        .args([
-            "simulate",
-            "double_pendulum",
-            "--until",
-            "1e7",
-            "--step",
-            "0.01",
-        ])
-        .args(["--out", &csv.to_string_lossy()])
-        .stderr(Stdio::piped())
-        .spawn()
-        .expect("the command starts");
-    let begun = std::time::Instant::now();
-    while fs::metadata(&csv).map_or(0, |file| file.len()) == 0 && begun.elapsed() < PATIENCE {
-        std::thread::sleep(std::time::Duration::from_millis(10));
-    }
-    let pressed = Command::new("kill")
-        .args(["-INT", &child.id().to_string()])
-        .status();
-    assert!(pressed.is_ok_and(|status| status.success()));
-    let ran = read(child.wait_with_output().expect("the command ends"));
-    assert_eq!(ran.status, Some(130), "{}", ran.err);
+    let long = words("simulate double_pendulum --until 1e7 --step 0.01 --out");
+    let child = start(command().args(long).arg(&csv));
+    wait_until("a row", || {
+        fs::metadata(&csv).is_ok_and(|file| file.len() > 0)
+    });
+    let ran = interrupt(child);
     let rows = fs::read_to_string(&csv).expect("the rows are kept");
     let count = rows.lines().count() - 1;
     let said = format!("the {count} rows computed before");
-    assert!(ran.err.contains("interrupted"), "{}", ran.err);
-    assert!(ran.err.contains(&said), "{count} rows: {}", ran.err);
+    ran.says(&["interrupted", &said]);
     assert!(rows.ends_with('\n'));
 }
 
 #[test]
 fn stages_beside_a_singular_position_are_as_good_as_others_wherever_they_are_placed() {
-    let ran = bricard(&["passage", "slider_crank", "--methods", "rk4"]);
-    assert_eq!(ran.status, Some(0), "{}{}", ran.out, ran.err);
+    let ran = bricard(&["passage", "slider_crank", "--methods", "rk4"]).done();
     let rows = ran.out.lines().filter(|line| line.ends_with("  ok"));
     assert_eq!(rows.count(), 4, "{}", ran.out);
     let never = ["passes no singular position"];
@@ -653,19 +617,11 @@ fn stages_beside_a_singular_position_are_as_good_as_others_wherever_they_are_pla
 
 #[test]
 fn a_guess_can_be_given_on_the_command_line() {
-    let start = [
-        "simulate",
-        "slider_crank",
-        "--until",
-        "0.1",
-        "--every",
-        "0.1",
-    ];
+    let start = words("simulate slider_crank --until 0.1 --every 0.1");
     let held = [&start[..], &["--start", "q3=0.6"]].concat();
     let said = ["turn one of them into a guess", "--start 'NAME~VALUE'"];
     check_refused(&held, 1, &said);
-    let ran = bricard(&[&held[..], &["--start", "q1~0.8"]].concat());
-    assert_eq!(ran.status, Some(0), "{}", ran.err);
+    let ran = bricard(&[&held[..], &["--start", "q1~0.8"]].concat()).done();
     assert_eq!(column(&ran.out, "q3")[0], 0.6);
     let angle = column(&ran.out, "q1")[0] - 0.6_f64.acos();
     assert!(angle.abs() < 1e-14, "2 L cos(q1) = q3 is off by {angle}");
@@ -681,19 +637,8 @@ fn a_negative_mass_is_refused_by_its_coordinate() {
     let said = ["kinetic energy is negative where `", "parameters"];
     check_refused(&arguments, 1, &said);
     // The second link moves with the first one, so that the energy stays positive.
-    let ran = bricard(&[
-        "simulate",
-        "slider_crank",
-        "--until",
-        "0.1",
-        "--set",
-        "m1=-3",
-    ]);
-    assert_eq!(ran.status, Some(0), "{}", ran.err);
-    assert!(
-        ran.err
-            .contains("warning: `m1` is an inertia, and negative")
-    );
+    let ran = bricard(&words("simulate slider_crank --until 0.1 --set m1=-3")).done();
+    ran.says(&["warning: `m1` is an inertia, and negative"]);
 }
 
 #[test]
@@ -766,8 +711,7 @@ fn a_plot_names_outputs_marks_events_and_sets_turning_angles_apart() {
     let path = file.to_string_lossy();
     let run = ["simulate", "quick_return", "--until", "3", "--plot", &path];
     let columns = ["--columns", "speed,rank", "--start", "der(crank)=9"];
-    let ran = bricard(&[&run[..], &columns].concat());
-    assert_eq!(ran.status, Some(0), "{}", ran.err);
+    bricard(&[&run[..], &columns].concat()).done();
     let svg = fs::read_to_string(&file).unwrap_or_default();
     assert!(
         svg.contains("speed [m/s]"),
@@ -781,16 +725,9 @@ fn a_plot_names_outputs_marks_events_and_sets_turning_angles_apart() {
 #[test]
 fn a_plot_is_drawn_though_the_reader_of_the_rows_has_gone() {
     let file = folder("gone").join("run.svg");
-    let mut child = Command::new(env!("CARGO_BIN_EXE_bricard"))
-        .args(["simulate", "double_pendulum", "--until", "500"])
-        .args(["--step", "0.01", "--out", "-", "--plot"])
-        .arg(&file)
-        .stdout(Stdio::piped())
-        .stderr(Stdio::piped())
-        .spawn()
-        .expect("the command starts");
+    let long = words("simulate double_pendulum --until 500 --step 0.01 --out - --plot");
+    let mut child = start(command().args(long).arg(&file));
     drop(child.stdout.take());
-    let ran = read(child.wait_with_output().expect("the command ends"));
-    assert_eq!(ran.status, Some(0), "{}", ran.err);
+    end(child).done();
     assert!(fs::read_to_string(file).is_ok_and(|svg| svg.contains("</svg>")));
 }

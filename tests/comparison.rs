@@ -1,7 +1,7 @@
 //! Several runs that differ in one value: each is the run that it would be alone, and all are
 //! in one table, in one picture.
 
-use crate::command::{bricard, check_refused, folder};
+use crate::command::{bricard, check_refused, folder, words};
 use std::fs;
 
 /// The lengths that are compared.
@@ -16,13 +16,11 @@ fn the_rows_of_each_run_are_those_of_the_run_alone_behind_its_value() {
         &run[..],
         &[&path("all.csv"), "--set", "L1=0.4,0.5,0.6", "--json"],
     ];
-    let all = bricard(&all.concat());
-    assert_eq!(all.status, Some(0), "{}", all.err);
+    let all = bricard(&all.concat()).done();
     let mut wanted = String::new();
     for (i, length) in LENGTHS.iter().enumerate() {
         let set = format!("L1={length}");
-        let alone = bricard(&[&run[..], &[&path("one.csv"), "--set", &set]].concat());
-        assert_eq!(alone.status, Some(0), "{}", alone.err);
+        bricard(&[&run[..], &[&path("one.csv"), "--set", &set]].concat()).done();
         let rows = fs::read_to_string(path("one.csv")).expect("the rows are written");
         let (header, rows) = rows.split_once('\n').expect("a header");
         if i == 0 {
@@ -86,23 +84,14 @@ fn a_picture_of_several_runs_has_a_curve_for_each_with_its_value() {
 fn a_run_that_fails_is_named_and_the_others_go_on() {
     let folder = folder("comparison_failure");
     let out = folder.join("rows.csv").display().to_string();
-    let run = [
-        "simulate",
-        "slider_crank",
-        "--form",
-        "multipliers",
-        "--until",
-        "2",
-    ];
+    let run = words("simulate slider_crank --form multipliers --until 2");
     let ran = bricard(&[&run[..], &["--set", "L1=0.5,0.4", "--out", &out]].concat());
     assert_eq!(ran.status, Some(1));
-    for part in [
+    ran.says(&[
         "1 of 2 runs ended early",
         "L1 = 0.5: at t = 0.87",
         "were written",
-    ] {
-        assert!(ran.err.contains(part), "no `{part}` in {}", ran.err);
-    }
+    ]);
     let rows = fs::read_to_string(out).expect("the rows are kept");
     assert!(
         rows.lines().any(|row| row.starts_with("0.4,2,")),
@@ -122,14 +111,7 @@ fn lists_are_refused_where_they_make_no_sense() {
     for (more, said) in cases {
         check_refused(&[&run[..], more].concat(), 2, &[said]);
     }
-    let many = [
-        "simulate",
-        "slider_crank",
-        "--plot",
-        "x.svg",
-        "--set",
-        "L1=1,2,3,4,5,6,7,8",
-    ];
+    let many = words("simulate slider_crank --plot x.svg --set L1=1,2,3,4,5,6,7,8");
     check_refused(&many, 2, &["seven runs", "asks for 8"]);
     let watch = ["watch", "x.mech", "--set", "L1=0.4,0.5"];
     check_refused(&watch, 2, &["`watch` shows one run"]);
@@ -139,23 +121,14 @@ fn lists_are_refused_where_they_make_no_sense() {
 fn a_picture_for_print_has_its_width_and_its_letters_with_it() {
     let folder = folder("comparison_print");
     let path = |name: &str| folder.join(name).display().to_string();
-    let run = [
-        "simulate",
-        "slider_crank",
-        "--until",
-        "1",
-        "--quiet",
-        "--plot",
-    ];
+    let run = words("simulate slider_crank --until 1 --quiet --plot");
     for (width, wanted) in [("single", "88.00mm"), ("12cm", "120.00mm")] {
-        let ran = bricard(&[&run[..], &[&path("x.svg"), "--width", width]].concat());
-        assert_eq!(ran.status, Some(0), "{}", ran.err);
+        bricard(&[&run[..], &[&path("x.svg"), "--width", width]].concat()).done();
         let svg = fs::read_to_string(path("x.svg")).expect("it is written");
         assert!(svg.starts_with("<svg ") && svg.contains(&format!("width=\"{wanted}\"")));
         assert!(!svg.contains("<text"), "letters are outlines");
     }
-    let ran = bricard(&[&run[..], &[&path("x.pdf"), "--width", "single"]].concat());
-    assert_eq!(ran.status, Some(0), "{}", ran.err);
+    bricard(&[&run[..], &[&path("x.pdf"), "--width", "single"]].concat()).done();
     let pdf = fs::read(path("x.pdf")).expect("it is written");
     let pdf = String::from_utf8_lossy(&pdf);
     // 88 mm in points.
@@ -164,8 +137,7 @@ fn a_picture_for_print_has_its_width_and_its_letters_with_it() {
         pdf.contains("/FontFile2") && pdf.contains("+DejaVuSans"),
         "the letters"
     );
-    let ran = bricard(&[&run[..], &[&path("x.png"), "--width", "single"]].concat());
-    assert_eq!(ran.status, Some(0), "{}", ran.err);
+    bricard(&[&run[..], &[&path("x.png"), "--width", "single"]].concat()).done();
     let png = fs::read(path("x.png")).expect("it is written");
     let pixels = u32::from_be_bytes([png[16], png[17], png[18], png[19]]);
     // 88 mm at 600 dots per inch.

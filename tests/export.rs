@@ -2,7 +2,7 @@
 //! the command itself says.
 
 use crate::built;
-use crate::command::{Ran, cache, folder, read};
+use crate::command::{Ran, command, folder, read};
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
@@ -14,11 +14,9 @@ fn bricard(folder: &Path, arguments: &[&str]) -> Ran {
 
 /// The command in a folder, with another `PATH` to look for the compiler in, if one is given.
 fn bricard_with(path: Option<&Path>, folder: &Path, arguments: &[&str]) -> Ran {
-    let mut command = Command::new(env!("CARGO_BIN_EXE_bricard"));
-    command.current_dir(folder).env("XDG_CACHE_HOME", cache());
-    command
-        .envs(path.map(|path| ("PATH", path)))
-        .args(arguments);
+    let mut command = command();
+    command.current_dir(folder).args(arguments);
+    command.envs(path.map(|path| ("PATH", path)));
     read(command.output().expect("the command starts"))
 }
 
@@ -98,14 +96,13 @@ fn a_package_for_npm_is_whole_but_for_its_module_where_rust_can_not_compile_that
     }
     let needs = "rustup target add wasm32-unknown-unknown";
     assert_eq!(ran.status, Some(1), "{}", ran.err);
-    assert!(ran.err.contains(needs), "{}", ran.err);
+    ran.says(&[needs]);
     assert!(!made.join("mechanism.wasm").exists());
 }
 
 /// A crate of Rust, in a folder of one test's own.
 fn exported_crate(folder: &Path, mechanism: &str) -> PathBuf {
-    let ran = bricard(folder, &["export", mechanism, "--to", "rust"]);
-    assert_eq!(ran.status, Some(0), "{}", ran.err);
+    bricard(folder, &["export", mechanism, "--to", "rust"]).done();
     let made = folder.join(mechanism.trim_end_matches(".mech"));
     assert!(!made.join("build.rs").exists());
     made
@@ -137,11 +134,11 @@ fn examples_show_the_values_of_states() {
     let heads = said.lines().next().expect("names").split_whitespace();
     assert_eq!(heads.collect::<Vec<_>>(), ["t", "angle", "current"]);
     assert_eq!(last_row(&said), wanted, "{said}");
-    let ran = bricard(
+    bricard(
         &folder,
         &["export", "motor.mech", "--to", "c", "--out", "c"],
-    );
-    assert_eq!(ran.status, Some(0), "{}", ran.err);
+    )
+    .done();
     let told = example_in_c(&folder.join("c"), "motor");
     assert_eq!(told.lines().next(), said.lines().next());
     assert_eq!(last_row(&told), wanted, "{told}");
@@ -181,11 +178,11 @@ fn example_in_c(made: &Path, name: &str) -> String {
 #[test]
 fn a_folder_for_c_holds_libraries_and_an_example_that_moves_as_the_command_does() {
     let folder = folder("export_c");
-    let ran = bricard(
+    bricard(
         &folder,
         &["export", "slider_crank", "--to", "c", "--out", "c"],
-    );
-    assert_eq!(ran.status, Some(0), "{}", ran.err);
+    )
+    .done();
     let made = folder.join("c");
     let wanted = simulated(&folder, "slider_crank", &SLIDER_CRANK);
     let said = example_in_c(&made, "slider_crank");
@@ -298,7 +295,7 @@ fn what_can_not_be_exported_is_refused_and_nothing_is_touched() {
         .output();
     let ran = read(output.expect("the command starts"));
     assert_eq!(ran.status, Some(1));
-    assert!(ran.err.contains("install it (rustup)"), "{}", ran.err);
+    ran.says(&["install it (rustup)"]);
     assert!(!folder.join("cart_pole").exists());
 }
 
@@ -316,8 +313,7 @@ fn a_library_belongs_to_the_numbers_in_the_files_that_its_description_reads() {
         let library = ["export", "told.mech", "--to", "library"];
         bricard_with(path, &folder, &library)
     };
-    let first = exported(2, None);
-    assert_eq!(first.status, Some(0), "{}", first.err);
+    let first = exported(2, None).done();
     // A toolchain that says which it is and compiles nothing: what needs no compiler is there.
     let script = format!("[ \"$1\" = -vV ] && PATH='{path}' exec rustc -vV\nexit 1");
     let idle = toolchain(&folder, &script);
@@ -326,5 +322,5 @@ fn a_library_belongs_to_the_numbers_in_the_files_that_its_description_reads() {
     let other = exported(3, Some(&idle));
     assert_eq!(other.status, Some(1), "{}", other.out);
     let said = "told.mech could not be compiled";
-    assert!(other.err.contains(said), "{}", other.err);
+    other.says(&[said]);
 }

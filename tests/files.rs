@@ -1,6 +1,6 @@
 //! The kinds of file that a run writes.
 
-use crate::command::{bricard, folder};
+use crate::command::{bricard, folder, words};
 use std::fs;
 
 /// Simulates the slider-crank for a second into a file of a folder of its own; the file's
@@ -74,27 +74,14 @@ fn a_picture_of_a_long_run_is_not_that_of_a_slow_motion() {
     let folder = folder("long_run");
     let [picture, rows] = ["run.svg", "run.csv"].map(|name| folder.join(name));
     let [picture, rows] = [&picture, &rows].map(|path| path.to_string_lossy().into_owned());
-    let run = [
-        "simulate",
-        "double_four_bar",
-        "--until",
-        "600",
-        "--rtol",
-        "1e-6",
-    ];
-    let alone = bricard(&[&run[..], &["--plot", &picture]].concat());
-    assert_eq!(alone.status, Some(0), "{}", alone.err);
+    let run = words("simulate double_four_bar --until 600 --rtol 1e-6");
+    let alone = bricard(&[&run[..], &["--plot", &picture]].concat()).done();
     assert!(!alone.err.contains("warning"), "{}", alone.err);
     let drawn = fs::read_to_string(&picture).expect("a picture");
     assert!(drawn.contains(", not marked)"), "{drawn:.2000}");
     assert!(drawn.len() < 100_000, "{} bytes", drawn.len());
-    let sparse = bricard(&[&run[..], &["--plot", &picture, "--out", &rows]].concat());
-    assert_eq!(sparse.status, Some(0), "{}", sparse.err);
-    assert!(
-        sparse.err.contains("a row every 0.6 s, with"),
-        "{}",
-        sparse.err
-    );
+    let sparse = bricard(&[&run[..], &["--plot", &picture, "--out", &rows]].concat()).done();
+    sparse.says(&["a row every 0.6 s, with"]);
     let count = fs::read_to_string(&rows).expect("rows").lines().count();
     assert_eq!(count, 1 + 1001);
 }
@@ -103,14 +90,7 @@ fn a_picture_of_a_long_run_is_not_that_of_a_slow_motion() {
 fn a_summary_as_json_says_what_was_done() {
     let path = folder("json").join("run.csv");
     let text = path.to_string_lossy();
-    let run = [
-        "simulate",
-        "slider_crank",
-        "--until",
-        "1",
-        "--json",
-        "--quiet",
-    ];
+    let run = words("simulate slider_crank --until 1 --json --quiet");
     let ran = bricard(&[&run[..], &["--out", &text]].concat());
     assert_eq!((ran.status, ran.err.as_str()), (Some(0), ""));
     let summary: serde_json::Value = serde_json::from_str(&ran.out).expect("JSON");
@@ -124,13 +104,11 @@ fn a_summary_as_json_says_what_was_done() {
 #[test]
 fn shells_and_the_manual_know_the_commands() {
     for shell in ["bash", "zsh", "fish", "elvish", "powershell"] {
-        let ran = bricard(&["completions", shell]);
-        assert_eq!(ran.status, Some(0), "{}", ran.err);
+        let ran = bricard(&["completions", shell]).done();
         assert!(ran.out.contains("simulate") && ran.out.contains("stabilisation"));
     }
     let folder = folder("manual");
-    let ran = bricard(&["man", &folder.to_string_lossy()]);
-    assert_eq!(ran.status, Some(0), "{}", ran.err);
+    bricard(&["man", &folder.to_string_lossy()]).done();
     let page = fs::read_to_string(folder.join("bricard-simulate.1")).expect("a page");
     assert!(page.contains("stabilisation"));
 }

@@ -1,6 +1,6 @@
 //! Parquet files hold what CSV files do.
 
-use crate::command::{bricard, check_refused, folder};
+use crate::command::{bricard, check_refused, folder, words};
 use parquet::file::reader::{FileReader, SerializedFileReader};
 use parquet::record::RowAccessor;
 use std::fs::{self, File};
@@ -40,8 +40,7 @@ fn parquet_holds_the_same_names_and_bits_as_csv() {
         let path = folder.join(file);
         let text = path.to_string_lossy();
         let options = ["--until", "2", "--columns", "energy,rank", "--out", &text];
-        let ran = bricard(&[&["simulate", "double_four_bar"], &options[..]].concat());
-        assert_eq!(ran.status, Some(0), "{}", ran.err);
+        bricard(&[&["simulate", "double_four_bar"], &options[..]].concat()).done();
         path
     };
     let csv = fs::read_to_string(run("run.csv")).expect("rows");
@@ -69,11 +68,6 @@ fn a_run_that_fails_leaves_parquet_that_can_be_read() {
 
 #[test]
 fn parquet_that_cannot_be_written_is_found_out_before_the_run() {
-    let missing = [
-        "simulate",
-        "slider_crank",
-        "--out",
-        "/nonexistent/run.parquet",
-    ];
+    let missing = words("simulate slider_crank --out /nonexistent/run.parquet");
     check_refused(&missing, 1, &["could not write /nonexistent/run.parquet"]);
 }

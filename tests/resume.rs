@@ -1,10 +1,10 @@
 //! Interrupted runs go on to the same bits, and equal commands give equal bits.
 
-use crate::command::{bricard, check_refused, folder, read};
+use crate::command::{
+    Ran, bricard, check_refused, command, folder, interrupt, start, wait_until, words,
+};
 use std::fs;
 use std::path::Path;
-use std::process::{Command, Stdio};
-use std::time::{Duration, Instant};
 
 /// A run with fixed steps, one that follows a tolerance through singular positions, and
 /// one whose rows lie within steps.
@@ -30,8 +30,6 @@ const RUNS: [&[&str]; 3] = [
     ],
 ];
 
-/// Long enough for any machine to get so far.
-const PATIENCE: Duration = Duration::from_secs(120);
 /// Bytes of rows after which a run is interrupted: several segments.
 const ENOUGH: u64 = 600_000;
 
@@ -41,10 +39,6 @@ fn run(arguments: &[&str], csv: &Path, more: &[&str]) -> Vec<String> {
     let mut all: Vec<String> = all.map(|word| word.to_string()).collect();
     all.extend(["--out".to_string(), csv]);
     all
-}
-
-fn words(arguments: &[String]) -> Vec<&str> {
-    arguments.iter().map(String::as_str).collect()
 }
 
 #[cfg(unix)]
@@ -61,22 +55,16 @@ fn an_interrupted_run_goes_on_to_the_same_bytes() {
     let [file, other] = [file, other].map(|path| path.to_string_lossy().into_owned());
     for arguments in RUNS {
         let _none_left = fs::remove_file(&file);
-        let ran = bricard(&words(&run(arguments, &whole, &["--checkpoint", &other])));
-        assert_eq!(ran.status, Some(0), "{}", ran.err);
+        bricard(&run(arguments, &whole, &["--checkpoint", &other])).done();
         let kept = run(arguments, &parts, &["--checkpoint", &file]);
-        let err = interrupted(&kept, &parts);
-        assert!(
-            err.contains("the run can be taken up again"),
-            "{arguments:?}: {err}"
-        );
+        interrupted(&kept, &parts).says(&["the run can be taken up again"]);
         let torn = fs::read(&parts).expect("rows are kept");
         check_damaged(arguments, &folder, &file);
         check_passed(arguments, &folder, &file);
         let rows = String::from_utf8_lossy(&torn);
         check_other_tables(arguments, &folder, &file, &rows);
         let on = run(arguments, &parts, &["--resume", &file]);
-        let ran = bricard(&words(&on));
-        assert_eq!(ran.status, Some(0), "{}", ran.err);
+        bricard(&on).done();
         let [one, two] = [&whole, &parts].map(|path| fs::read(path).expect("rows"));
         assert!(
             torn.len() < one.len(),
@@ -96,7 +84,7 @@ fn check_damaged(arguments: &[&str], folder: &Path, file: &str) {
     let one_step_more = text.replacen("\"steps\": ", "\"steps\": 1", 1);
     for (text, said) in [(half, "no checkpoint"), (&one_step_more, "damaged")] {
         fs::write(&damaged, text).expect("a file can be written");
-        check_refused(&words(&on), 2, &["can't go on from", said]);
+        check_refused(&on, 2, &["can't go on from", said]);
         assert!(!rows.exists(), "rows were written");
     }
 }
@@ -119,7 +107,7 @@ fn check_other_tables(arguments: &[&str], folder: &Path, file: &str, rows: &str)
         if let Some(held) = &held {
             fs::write(&other, held).expect("a file can be written");
         }
-        check_refused(&words(&on), 2, &["can't go on from", said]);
+        check_refused(&on, 2, &["can't go on from", said]);
         assert!(
             fs::read_to_string(&other).ok() == held,
             "{said}: it was touched"
@@ -135,34 +123,19 @@ fn check_passed(arguments: &[&str], folder: &Path, file: &str) {
     }
     let rows = folder.join("early.csv");
     let on = run(&early, &rows, &["--resume", file]);
-    check_refused(
-        &words(&on),
-        2,
-        &["has come to t = ", "give a later --until"],
-    );
+    check_refused(&on, 2, &["has come to t = ", "give a later --until"]);
     assert!(!rows.exists(), "rows were written");
 }
 
 /// Starts a run and presses Ctrl-C when some rows are written; what it says.
 #[cfg(unix)]
-fn interrupted(arguments: &[String], csv: &Path) -> String {
+fn interrupted(arguments: &[String], csv: &Path) -> Ran {
     let _none_left = fs::remove_file(csv);
-    let child = Command::new(env!("CARGO_BIN_EXE_bricard"))
-        .args(arguments)
-        .stderr(Stdio::piped())
-        .spawn()
-        .expect("the command starts");
-    let begun = Instant::now();
-    while fs::metadata(csv).map_or(0, |file| file.len()) < ENOUGH && begun.elapsed() < PATIENCE {
-        std::thread::sleep(Duration::from_millis(1));
-    }
-    let pressed = Command::new("kill")
-        .args(["-INT", &child.id().to_string()])
-        .status();
-    assert!(pressed.is_ok_and(|status| status.success()));
-    let ran = read(child.wait_with_output().expect("the command ends"));
-    assert_eq!(ran.status, Some(130), "{}", ran.err);
-    ran.err
+    let child = start(command().args(arguments));
+    wait_until("a segment", || {
+        fs::metadata(csv).is_ok_and(|file| file.len() >= ENOUGH)
+    });
+    interrupt(child)
 }
 
 #[test]
@@ -171,24 +144,16 @@ fn checkpoints_with_fixed_steps_change_no_bit() {
     let [plain, kept, file] = ["plain.csv", "kept.csv", "c"].map(|f| folder.join(f));
     let arguments = ["double_pendulum", "--until", "10", "--step", "0.002"];
     let file = file.to_string_lossy().into_owned();
-    bricard(&words(&run(&arguments, &plain, &[])));
-    bricard(&words(&run(&arguments, &kept, &["--checkpoint", &file])));
+    bricard(&run(&arguments, &plain, &[]));
+    bricard(&run(&arguments, &kept, &["--checkpoint", &file]));
     let [one, two] = [plain, kept].map(|path| fs::read(path).expect("rows"));
     assert!(one == two);
 }
 
 #[test]
 fn equal_commands_give_equal_bytes() {
-    let arguments = [
-        "simulate",
-        "double_four_bar",
-        "--until",
-        "8",
-        "--columns",
-        "energy,reactions",
-    ];
-    let [one, two] = [(); 2].map(|()| bricard(&arguments));
-    assert_eq!(one.status, Some(0), "{}", one.err);
+    let arguments = words("simulate double_four_bar --until 8 --columns energy,reactions");
+    let [one, two] = [(); 2].map(|()| bricard(&arguments).done());
     assert!(one.out.lines().count() > 100);
     assert_eq!(one.out, two.out);
 }
@@ -217,11 +182,11 @@ fn a_run_that_ends_before_its_first_checkpoint_says_so() {
     let rows = folder.join("rows.csv");
     // This form ends at the first singular position.
     let arguments: &[&str] = &["slider_crank", "--form", "multipliers", "--until", "5"];
-    let ran = bricard(&words(&run(arguments, &rows, &["--checkpoint", &file])));
+    let ran = bricard(&run(arguments, &rows, &["--checkpoint", &file]));
     assert_eq!(ran.status, Some(1), "{}", ran.err);
-    assert!(ran.err.contains("no checkpoint was written"), "{}", ran.err);
+    ran.says(&["no checkpoint was written"]);
     check_refused(
-        &words(&run(arguments, &rows, &["--resume", &file])),
+        &run(arguments, &rows, &["--resume", &file]),
         1,
         &["there is no such file", "its first checkpoint"],
     );

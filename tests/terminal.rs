@@ -7,7 +7,7 @@ use std::process::{Command, Stdio};
 
 #[test]
 fn the_name_alone_tells_three_commands_to_begin_with() {
-    let ran = bricard(&[]);
+    let ran = bricard::<&str>(&[]);
     assert_eq!((ran.status, ran.err.as_str()), (Some(0), ""));
     let shown = ran
         .out
