@@ -11,10 +11,8 @@ use crate::names::List;
 use crate::status::{Status, time};
 use crate::watch::{Ended, Listeners, Writer};
 use bricard_runtime::{
-    Interface, Observer, Options, Sampler, SimulateError, State, Summary, simulate, with_room,
+    Grid, Interface, Observer, Options, SimulateError, State, Summary, simulate, with_room,
 };
-use core::cell::Cell;
-use core::ops::ControlFlow;
 use core::sync::atomic::AtomicBool;
 
 /// How a run ended, and what it did if it began.
@@ -46,17 +44,11 @@ where
         };
         let mut quiet = Listeners::quiet();
         let listeners = listeners.unwrap_or(&mut quiet);
-        let sampled = Cell::new(None);
-        let collect = |row: &State<f64, N>| {
-            sampled.set(Some(*row));
-            ControlFlow::Break(())
+        let grid = match listeners.every.map(Grid::new).transpose() {
+            Ok(grid) => grid,
+            Err(error) => return (self.refuse(Status::Argument, &error), None),
         };
-        let sampler = match listeners.every.map(|every| Sampler::new(every, collect)) {
-            None => None,
-            Some(Ok(sampler)) => Some(sampler),
-            Some(Err(error)) => return (self.refuse(Status::Argument, &error), None),
-        };
-        let mut writer = Writer::new(listeners, sampler, &sampled, stop);
+        let mut writer = Writer::new(listeners, grid, stop);
         let observers: &mut [&mut dyn Observer<f64, N>] = &mut [&mut writer];
         let result = simulate::<_, _, N, R>(&self.driven, &state, &options, observers);
         let mut ended = writer.ended;

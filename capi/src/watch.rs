@@ -6,9 +6,8 @@
 
 use crate::callback::{Callback, EventFunction, GoOnFunction, PassageFunction, TakeFunction};
 use bricard_runtime::{
-    DynamicsError, Observer, Occurrence, Passage, Probe, Sampler, State, Step, Structure,
+    DynamicsError, Grid, Observer, Occurrence, Passage, Probe, State, Step, Structure,
 };
-use core::cell::Cell;
 use core::ops::ControlFlow;
 use core::sync::atomic::{AtomicBool, Ordering};
 
@@ -181,37 +180,31 @@ impl Listeners<'_> {
 }
 
 /// Makes rows of steps, and tells those who listen.
-pub(crate) struct Writer<'a, 'b, const N: usize, F> {
+pub(crate) struct Writer<'a, 'b> {
     listeners: &'b mut Listeners<'a>,
-    /// The rows within a step, one at a time.
-    sampler: Option<Sampler<f64, F>>,
-    sampled: &'b Cell<Option<State<f64, N>>>,
+    /// The rows at equal distances, if they are.
+    grid: Option<Grid<f64>>,
     stop: &'b AtomicBool,
     steps: u64,
     pub(crate) ended: Option<Ended>,
 }
 
-impl<'a, 'b, const N: usize, F> Writer<'a, 'b, N, F>
-where
-    F: FnMut(&State<f64, N>) -> ControlFlow<()>,
-{
+impl<'a, 'b> Writer<'a, 'b> {
     pub(crate) fn new(
         listeners: &'b mut Listeners<'a>,
-        sampler: Option<Sampler<f64, F>>,
-        sampled: &'b Cell<Option<State<f64, N>>>,
+        grid: Option<Grid<f64>>,
         stop: &'b AtomicBool,
     ) -> Self {
         Self {
             listeners,
-            sampler,
-            sampled,
+            grid,
             stop,
             steps: 0,
             ended: None,
         }
     }
 
-    fn add(
+    fn add<const N: usize>(
         &mut self,
         state: &State<f64, N>,
         probe: &mut dyn Probe<f64, N>,
@@ -230,32 +223,28 @@ where
     }
 
     /// The rows of a step.
-    fn rows(
+    fn rows<const N: usize>(
         &mut self,
         step: &Step<f64, N>,
         probe: &mut dyn Probe<f64, N>,
     ) -> Result<ControlFlow<()>, DynamicsError<f64>> {
-        if self.sampler.is_none() {
-            return self.rows_inside(step, probe);
-        }
         loop {
-            // It breaks off at each row, because it can't be asked for anything meanwhile.
-            if let Some(sampler) = &mut self.sampler {
-                let _goes_on = sampler.step(step, probe)?;
-            }
-            match self.sampled.take() {
-                None => return Ok(ControlFlow::Continue(())),
-                Some(state) if self.add(&state, probe)?.is_break() => {
-                    return Ok(ControlFlow::Break(()));
-                }
-                Some(_) => {}
+            let row = match &mut self.grid {
+                Some(grid) => grid.row(step, probe)?,
+                None => return self.rows_inside(step, probe),
+            };
+            let Some(row) = row else {
+                return Ok(ControlFlow::Continue(()));
+            };
+            if self.add(&row, probe)?.is_break() {
+                return Ok(ControlFlow::Break(()));
             }
         }
     }
 
     /// A row at the end of a step, and before it others at Chebyshev points, which determine a
     /// polynomial best.
-    fn rows_inside(
+    fn rows_inside<const N: usize>(
         &mut self,
         step: &Step<f64, N>,
         probe: &mut dyn Probe<f64, N>,
@@ -285,18 +274,14 @@ where
     }
 }
 
-impl<const N: usize, F> Observer<f64, N> for Writer<'_, '_, N, F>
-where
-    F: FnMut(&State<f64, N>) -> ControlFlow<()>,
-{
+impl<const N: usize> Observer<f64, N> for Writer<'_, '_> {
     fn begin(
         &mut self,
         state: &State<f64, N>,
         probe: &mut dyn Probe<f64, N>,
     ) -> Result<ControlFlow<()>, DynamicsError<f64>> {
-        if let Some(sampler) = &mut self.sampler {
-            let _goes_on = sampler.begin(state, probe)?;
-            self.sampled.take();
+        if let Some(grid) = &mut self.grid {
+            grid.begin(state.t);
         }
         self.add(state, probe)
     }
@@ -329,6 +314,6 @@ where
     }
 
     fn looks_inside(&self) -> bool {
-        self.sampler.is_some() || self.listeners.inside > 0
+        self.grid.is_some() || self.listeners.inside > 0
     }
 }

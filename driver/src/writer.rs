@@ -8,12 +8,10 @@
 use crate::column::Column;
 use crate::segment::{CALM_SINE, EXTRA_STEPS, Reached, STEPS, Segment, Watch};
 use bricard_runtime::{
-    BadInterval, DynamicsError, Observer, Occurrence, Origin, Passage, Probe, Sampler, State, Step,
+    BadInterval, DynamicsError, Grid, Observer, Occurrence, Origin, Passage, Probe, State, Step,
     Summary, Whole, simulate,
 };
-use std::cell::RefCell;
 use std::ops::ControlFlow;
-use std::rc::Rc;
 use std::time::{Duration, Instant};
 
 /// Simulates a part of a run from a state.
@@ -44,9 +42,6 @@ pub(crate) fn segment<const N: usize, const R: usize>(
     })
 }
 
-type States<const N: usize> = Rc<RefCell<Vec<State<f64, N>>>>;
-type Collect<const N: usize> = Box<dyn FnMut(&State<f64, N>) -> ControlFlow<()>>;
-
 /// What is left of the last interval between rows is round-off up to this part of it, or of
 /// the run, if that is shorter.
 const SHORT: f64 = 1e-9;
@@ -55,8 +50,10 @@ const SHORT: f64 = 1e-9;
 struct Writer<'a, const N: usize> {
     segment: &'a Segment,
     watch: &'a mut dyn Watch,
-    sampler: Option<Sampler<f64, Collect<N>>>,
-    sampled: States<N>,
+    /// The rows at equal distances, if they are.
+    grid: Option<Grid<f64>>,
+    /// States that are rows, and not written yet.
+    sampled: Vec<State<f64, N>>,
     rows: u64,
     steps: u64,
     /// The state that this part begins with.
@@ -76,27 +73,16 @@ impl<'a, const N: usize> Writer<'a, N> {
         first: State<f64, N>,
         watch: &'a mut dyn Watch,
     ) -> Result<Self, BadInterval<f64>> {
-        let sampled = States::default();
-        let mut sampler = match segment.every {
-            Some(every) => {
-                let states = Rc::clone(&sampled);
-                let collect: Collect<N> = Box::new(move |state| {
-                    states.borrow_mut().push(*state);
-                    ControlFlow::Continue(())
-                });
-                Some(Sampler::new(every, collect)?)
-            }
-            None => None,
-        };
+        let mut grid = segment.every.map(Grid::new).transpose()?;
         let origin = segment.options.origin;
-        if let (Some(sampler), Some(origin)) = (&mut sampler, origin) {
-            sampler.go_on(origin.t, segment.rows);
+        if let (Some(grid), Some(origin)) = (&mut grid, origin) {
+            grid.go_on(origin.t, segment.rows);
         }
         Ok(Self {
             segment,
             watch,
-            sampler,
-            sampled,
+            grid,
+            sampled: Vec::new(),
             rows: segment.rows,
             steps: 0,
             first,
@@ -152,10 +138,9 @@ impl<'a, const N: usize> Writer<'a, N> {
         let Some(every) = self.segment.every.filter(|_| state.t >= until) else {
             return;
         };
-        let mut sampled = self.sampled.borrow_mut();
-        let last = sampled.last().map_or(self.last, |row| row.t);
+        let last = self.sampled.last().map_or(self.last, |row| row.t);
         if state.t - last > every.min(until.abs()) * SHORT {
-            sampled.push(*state);
+            self.sampled.push(*state);
         }
     }
 
@@ -165,9 +150,8 @@ impl<'a, const N: usize> Writer<'a, N> {
         &mut self,
         probe: &mut dyn Probe<f64, N>,
     ) -> Result<ControlFlow<()>, DynamicsError<f64>> {
-        let states = self.sampled.take();
-        for state in &states {
-            let row = row(state, &self.segment.columns, probe)?;
+        for state in std::mem::take(&mut self.sampled) {
+            let row = row(&state, &self.segment.columns, probe)?;
             if self.watch.row(&row).is_break() {
                 return Ok(ControlFlow::Break(()));
             }
@@ -196,12 +180,10 @@ impl<const N: usize> Observer<f64, N> for Writer<'_, N> {
         });
         // The projection of the start may have moved what is held by its round-off.
         let first = self.first;
-        match &mut self.sampler {
-            Some(sampler) => {
-                let _goes_on = sampler.begin(&first, probe)?;
-            }
-            None => self.sampled.borrow_mut().push(first),
+        if let Some(grid) = &mut self.grid {
+            grid.begin(first.t);
         }
+        self.sampled.push(first);
         self.write(probe)
     }
 
@@ -210,11 +192,13 @@ impl<const N: usize> Observer<f64, N> for Writer<'_, N> {
         step: &Step<f64, N>,
         probe: &mut dyn Probe<f64, N>,
     ) -> Result<ControlFlow<()>, DynamicsError<f64>> {
-        match &mut self.sampler {
-            Some(sampler) => {
-                let _goes_on = sampler.step(step, probe)?;
+        match &mut self.grid {
+            Some(grid) => {
+                while let Some(row) = grid.row(step, probe)? {
+                    self.sampled.push(row);
+                }
             }
-            None => self.sampled.borrow_mut().push(*step.end()),
+            None => self.sampled.push(*step.end()),
         }
         self.end(step.end());
         if self.write(probe)?.is_break() || self.watch.at(step.end().t, 1).is_break() {
@@ -237,7 +221,7 @@ impl<const N: usize> Observer<f64, N> for Writer<'_, N> {
     }
 
     fn looks_inside(&self) -> bool {
-        self.sampler.is_some()
+        self.grid.is_some()
     }
 }
 

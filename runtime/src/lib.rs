@@ -44,6 +44,8 @@ pub use model::{
     Linearised, Mechanism, Partials, Pivots, Position, Start, Terms, Whole,
 };
 pub use nalgebra;
+#[doc(hidden)]
+pub use observer::Grid;
 #[cfg(feature = "std")]
 pub use observer::Recorder;
 pub use observer::{

@@ -9,9 +9,8 @@
 
 use crate::row::Columns;
 use bricard_runtime::{
-    DynamicsError, Observer, Occurrence, Origin, Passage, Probe, Sampler, State, Step,
+    DynamicsError, Grid, Observer, Occurrence, Origin, Passage, Probe, State, Step,
 };
-use core::cell::Cell;
 use core::ops::ControlFlow;
 
 /// Passages and events of a piece that there is room for.
@@ -91,23 +90,19 @@ impl Log {
 }
 
 /// Makes rows of steps.
-pub struct Writer<'a, const N: usize, const R: usize, F> {
+pub struct Writer<'a, const N: usize, const R: usize> {
     pub log: &'a mut Log,
     pub columns: Columns,
     pub numbers: &'a mut [f64],
     /// Gives the rows of a step one at a time.
-    pub sampler: Sampler<f64, F>,
-    pub sampled: &'a Cell<Option<State<f64, N>>>,
+    pub grid: Grid<f64>,
     /// The state of the last row, where a run goes on that was cut there.
     pub last: State<f64, N>,
     pub every: f64,
     pub until: f64,
 }
 
-impl<const N: usize, const R: usize, F> Writer<'_, N, R, F>
-where
-    F: FnMut(&State<f64, N>) -> ControlFlow<()>,
-{
+impl<const N: usize, const R: usize> Writer<'_, N, R> {
     /// Rows that there is room for.
     fn room(&self, probe: &dyn Probe<f64, N>) -> usize {
         self.numbers.len() / self.columns.width(probe.structure())
@@ -139,13 +134,8 @@ where
         step: &Step<f64, N>,
         probe: &mut dyn Probe<f64, N>,
     ) -> Result<ControlFlow<()>, DynamicsError<f64>> {
-        loop {
-            // It breaks off at each row, because it can't be asked for anything meanwhile.
-            let _goes_on = self.sampler.step(step, probe)?;
-            let Some(state) = self.sampled.take() else {
-                break;
-            };
-            if self.add(&state, probe)?.is_break() {
+        while let Some(row) = self.grid.row(step, probe)? {
+            if self.add(&row, probe)?.is_break() {
                 return Ok(ControlFlow::Break(()));
             }
         }
@@ -170,17 +160,14 @@ where
     }
 }
 
-impl<const N: usize, const R: usize, F> Observer<f64, N> for Writer<'_, N, R, F>
-where
-    F: FnMut(&State<f64, N>) -> ControlFlow<()>,
-{
+impl<const N: usize, const R: usize> Observer<f64, N> for Writer<'_, N, R> {
     fn begin(
         &mut self,
         state: &State<f64, N>,
         probe: &mut dyn Probe<f64, N>,
     ) -> Result<ControlFlow<()>, DynamicsError<f64>> {
         if let Some(origin) = self.log.origin {
-            self.sampler.go_on(origin.t, self.log.rows);
+            self.grid.go_on(origin.t, self.log.rows);
             return Ok(ControlFlow::Continue(()));
         }
         self.log.origin = Some(Origin {
@@ -188,8 +175,7 @@ where
             energy: probe.energy(state).balance,
             supplied: 0.0,
         });
-        let _goes_on = self.sampler.begin(state, probe)?;
-        self.sampled.take();
+        self.grid.begin(state.t);
         // The projection of the start may have moved what is held by its round-off.
         let first = self.last;
         self.add(&first, probe)

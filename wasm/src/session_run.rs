@@ -6,9 +6,7 @@
 use crate::row::Columns;
 use crate::run::{Log, Writer};
 use crate::session::{DONE, ROOM, Session};
-use bricard_runtime::{Interface, Mechanism, Options, Sampler, State, simulate};
-use core::cell::Cell;
-use core::ops::ControlFlow;
+use bricard_runtime::{Grid, Interface, Mechanism, Options, simulate};
 
 impl<M, const N: usize, const R: usize> Session<M, N, R>
 where
@@ -42,13 +40,8 @@ where
             return Err(self.not_begun());
         };
         let start = motion.state;
-        let sampled = Cell::new(None);
-        let collect = |row: &State<f64, N>| {
-            sampled.set(Some(*row));
-            ControlFlow::Break(())
-        };
-        let sampler = match Sampler::new(every, collect) {
-            Ok(sampler) => sampler,
+        let grid = match Grid::new(every) {
+            Ok(grid) => grid,
             Err(error) => return Err(self.fail(&error)),
         };
         let options = Options {
@@ -56,12 +49,11 @@ where
             origin: self.log.origin,
             ..self.options
         };
-        let mut writer = Writer::<N, R, _> {
+        let mut writer = Writer::<N, R> {
             log: &mut self.log,
             columns,
             numbers: &mut self.numbers[..],
-            sampler,
-            sampled: &sampled,
+            grid,
             last: start,
             every,
             until,

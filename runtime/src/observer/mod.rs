@@ -20,7 +20,7 @@ pub(crate) use energy::balance;
 pub use probe::{OtherBranch, Probe};
 #[cfg(feature = "std")]
 pub use recorder::Recorder;
-pub use sampler::{BadInterval, Sampler};
+pub use sampler::{BadInterval, Grid, Sampler};
 
 use crate::{DynamicsError, Event, Passage, Real, State, Step};
 use core::ops::ControlFlow;

@@ -3,8 +3,7 @@
 //! In:  steps.
 //! Out: the states.
 
-use super::sampler::Grid;
-use super::{BadInterval, Observer, Probe};
+use super::{BadInterval, Grid, Observer, Probe};
 use crate::{DynamicsError, Real, State, Step};
 use core::ops::ControlFlow;
 use std::vec::Vec;
@@ -68,10 +67,9 @@ impl<T: Real, const N: usize> Observer<T, N> for Recorder<T, N> {
         step: &Step<T, N>,
         probe: &mut dyn Probe<T, N>,
     ) -> Result<ControlFlow<()>, DynamicsError<T>> {
-        let rows = &mut self.rows;
-        self.grid.rows(step, probe, &mut |state| {
-            rows.push(*state);
-            ControlFlow::Continue(())
-        })
+        while let Some(row) = self.grid.row(step, probe)? {
+            self.rows.push(row);
+        }
+        Ok(ControlFlow::Continue(()))
     }
 }

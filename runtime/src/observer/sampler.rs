@@ -77,9 +77,10 @@ impl<T: Real> Interval<T> {
     }
 }
 
-/// The times `t₀ + i·dt`, and how far a run has come.
+/// The times `t₀ + i·dt`, and how far a run has come: the rows of a step one at a time, for
+/// observers that ask something at each of them.
 #[derive(Clone, Debug)]
-pub(super) struct Grid<T> {
+pub struct Grid<T> {
     every: Interval<T>,
     origin: T,
     next: u64,
@@ -88,7 +89,12 @@ pub(super) struct Grid<T> {
 }
 
 impl<T: Real> Grid<T> {
-    pub(super) fn new(every: T) -> Result<Self, BadInterval<T>> {
+    /// Times every `every` seconds.
+    ///
+    /// # Errors
+    ///
+    /// [`BadInterval`] if the interval is not a positive number.
+    pub fn new(every: T) -> Result<Self, BadInterval<T>> {
         if every.is_finite() && every > T::zero() {
             Ok(Self {
                 every: Interval::new(every),
@@ -103,7 +109,7 @@ impl<T: Real> Grid<T> {
 
     /// A run begins at `t`: whether that is a row, the first one. In a later part of a run
     /// it is none, because the part before has taken what rows there are up to it.
-    pub(super) fn begin(&mut self, t: T) -> bool {
+    pub fn begin(&mut self, t: T) -> bool {
         if core::mem::take(&mut self.goes_on) {
             return false;
         }
@@ -113,38 +119,35 @@ impl<T: Real> Grid<T> {
     }
 
     /// The first rows are taken, and the next run has the others.
-    pub(super) fn go_on(&mut self, origin: T, rows: u64) {
+    pub fn go_on(&mut self, origin: T, rows: u64) {
         self.origin = origin;
         self.next = rows;
         self.goes_on = true;
     }
 
-    /// Calls `sink` with each row of a step until it breaks off.
-    pub(super) fn rows<const N: usize>(
+    /// The next row, if it is within a step.
+    ///
+    /// # Errors
+    ///
+    /// What the probe reports.
+    pub fn row<const N: usize>(
         &mut self,
         step: &Step<T, N>,
         probe: &mut dyn Probe<T, N>,
-        sink: &mut dyn FnMut(&State<T, N>) -> ControlFlow<()>,
-    ) -> Result<ControlFlow<()>, DynamicsError<T>> {
+    ) -> Result<Option<State<T, N>>, DynamicsError<T>> {
         let end = *step.end();
         let same = T::EPSILON * T::from_f64(SAME_TIME) * end.t.abs().max(self.origin.abs());
-        loop {
-            let t = self.origin + self.every.times(self.next);
-            if t > end.t + same {
-                return Ok(ControlFlow::Continue(()));
-            }
-            let state = if (t - end.t).abs() <= same {
-                State { t, ..end }
-            } else {
-                let mut inside = step.at(t);
-                probe.project(&mut inside, OtherBranch::Refused)?;
-                inside
-            };
-            self.next += 1;
-            if sink(&state).is_break() {
-                return Ok(ControlFlow::Break(()));
-            }
+        let t = self.origin + self.every.times(self.next);
+        if t > end.t + same {
+            return Ok(None);
         }
+        let mut row = State { t, ..end };
+        if (t - end.t).abs() > same {
+            row = step.at(t);
+            probe.project(&mut row, OtherBranch::Refused)?;
+        }
+        self.next += 1;
+        Ok(Some(row))
     }
 }
 
@@ -204,7 +207,12 @@ where
         step: &Step<T, N>,
         probe: &mut dyn Probe<T, N>,
     ) -> Result<ControlFlow<()>, DynamicsError<T>> {
-        self.grid.rows(step, probe, &mut self.sink)
+        while let Some(row) = self.grid.row(step, probe)? {
+            if (self.sink)(&row).is_break() {
+                return Ok(ControlFlow::Break(()));
+            }
+        }
+        Ok(ControlFlow::Continue(()))
     }
 }
 
