@@ -18,7 +18,6 @@
 mod abi;
 mod boundary;
 mod callback;
-mod draw;
 mod engine;
 mod evaluate;
 mod handle;

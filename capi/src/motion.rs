@@ -4,14 +4,13 @@
 //! Out: states, numbers; a [`Status`] and a message where that fails.
 
 use crate::Embedded;
-use crate::draw::Pencil;
 use crate::engine::{Engine, Outcome};
 use crate::evaluate::{Quantity, evaluate};
 use crate::names::List;
 use crate::status::{Status, time};
 use crate::watch::{Ended, Listeners, Writer};
 use bricard_runtime::{
-    Grid, Interface, Observer, Options, SimulateError, State, Summary, simulate, with_room,
+    Grid, Interface, Observer, Options, Picture, SimulateError, State, Summary, simulate, with_room,
 };
 use core::sync::atomic::AtomicBool;
 
@@ -184,9 +183,9 @@ where
     /// [`Status::NotFinite`], [`Status::Order`].
     pub fn draw(&mut self, at: Option<State<f64, N>>, out: &mut [f64]) -> Outcome<usize> {
         let state = self.point(at)?;
-        let mut pencil = Pencil::new(out);
-        self.driven.draw(&state, &mut pencil);
-        Ok(pencil.count)
+        let mut picture = Picture::new(out);
+        self.driven.draw(&state, &mut picture);
+        Ok(picture.length())
     }
 
     /// Brings a state near the constraints onto them.

@@ -16,6 +16,7 @@ mod number;
 mod observer;
 mod once;
 mod pace;
+mod picture;
 mod projection;
 mod real;
 mod sides;
@@ -51,6 +52,8 @@ pub use observer::Recorder;
 pub use observer::{
     BadInterval, ConstraintAudit, EnergyAudit, Observer, Occurrence, OtherBranch, Probe, Sampler,
 };
+#[doc(hidden)]
+pub use picture::Picture;
 pub use real::Real;
 pub use sides::{Condition, Discontinuity, Sides, Switch, Switches};
 pub use simulate::{

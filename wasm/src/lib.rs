@@ -14,14 +14,12 @@
 #![cfg_attr(not(test), no_std)]
 
 mod describe;
-mod picture;
 mod row;
 mod run;
 mod session;
 mod session_run;
 mod text;
 
-pub use picture::Picture;
 pub use session::{ROOM, Session, VERSION};
 pub use text::Text;
 

@@ -10,10 +10,10 @@
 
 use crate::row::numbers;
 use crate::run::Log;
-use crate::{Picture, Text, describe};
+use crate::{Text, describe};
 use bricard_runtime::{
-    Audit, Form, Initial, Interface, Mechanism, Method, Options, Probe, Settings, Stabilisation,
-    Start, State, StepControl, Stepper,
+    Audit, Form, Initial, Interface, Mechanism, Method, Options, Picture, Probe, Settings,
+    Stabilisation, Start, State, StepControl, Stepper,
 };
 use core::fmt::{Display, Write};
 

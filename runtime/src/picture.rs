@@ -4,7 +4,7 @@
 //! Out: for each shape its kind, how many points follow, and their coordinates, three each;
 //!      a circle has its radius behind its centre.
 
-use bricard_runtime::Canvas;
+use crate::model::Canvas;
 
 /// An open polygon.
 const LINE: f64 = 0.0;
@@ -16,6 +16,7 @@ const POLYGON: f64 = 2.0;
 const TRACE: f64 = 3.0;
 
 /// Shapes in an array.
+#[derive(Debug)]
 pub struct Picture<'a> {
     numbers: &'a mut [f64],
     length: usize,
@@ -70,7 +71,7 @@ impl Canvas<f64> for Picture<'_> {
 #[cfg(test)]
 mod tests {
     use super::Picture;
-    use bricard_runtime::Canvas;
+    use crate::model::Canvas;
 
     #[test]
     fn shapes_are_kinds_counts_and_points_and_what_has_no_room_is_counted() {
