@@ -176,7 +176,7 @@ fn axis(column: Column, structure: &Structure) -> String {
     if unit.is_empty() {
         what
     } else {
-        format!("{what} [{}]", printed(&unit))
+        format!("{what} [{}]", printed(unit))
     }
 }
 
