@@ -412,6 +412,7 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
         step: &Step<T, N>,
     ) -> Result<(), DynamicsError<T>> {
         self.session.base = Some(step.end);
+        self.session.begins = false;
         if !self.rows.all_have_sizes() {
             self.verify_rows_without_size(mechanism, &step.end)?;
         }

@@ -18,6 +18,8 @@ use nalgebra::SVector;
 pub(crate) struct Session<T, const N: usize, const R: usize> {
     /// The last accepted state.
     pub(crate) base: Option<State<T, N>>,
+    /// It begins the motion, and need not be on the constraints.
+    pub(crate) begins: bool,
     /// The chart of the sheet there; none where the constraints are safely regular.
     pub(crate) chart: Option<Chart<T, N, R>>,
     /// The chart of the last accepted step, by which its passages are found.
@@ -116,6 +118,7 @@ impl<T: Real, const N: usize, const R: usize> Session<T, N, R> {
     pub(crate) fn new() -> Self {
         Self {
             base: None,
+            begins: true,
             chart: None,
             step_chart: None,
             at_rest: false,
@@ -135,6 +138,7 @@ impl<T: Real, const N: usize, const R: usize> Session<T, N, R> {
     /// Charts are large, so that what is forgotten is not overwritten.
     pub(crate) fn begin(&mut self, state: &State<T, N>) {
         self.base = Some(*state);
+        self.begins = true;
         self.chart = None;
         self.step_chart = None;
         self.at_rest = false;

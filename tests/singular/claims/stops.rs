@@ -2,8 +2,8 @@
 //! more digits than round-off takes. A kink, at which no smooth motion goes on.
 
 use bricard_runtime::{
-    DynamicsError, IntegrateError, Method, Options, SimulateError, Singularity, StepControl, Whole,
-    assemble, simulate,
+    DynamicsError, IntegrateError, Method, Options, SimulateError, Singularity, Whole, assemble,
+    simulate,
 };
 use bricard_singular::descriptions::driven_crank::DrivenCrank;
 use bricard_singular::descriptions::pulled_over::PulledOver;
@@ -104,23 +104,6 @@ fn a_run_ends_where_a_constraint_has_a_kink() {
                 "{name}: {}",
                 failure.summary.steps
             );
-        }
-        for step in [0.05, 0.02, 0.01, 0.003, 0.001] {
-            let options = Options {
-                method,
-                step_control: StepControl::Fixed { step },
-                ..Options::dop853(1.0, 1e-9)
-            };
-            let failure = simulate(mechanism, &start, &options, &mut []);
-            let end = failure.expect_err("it ends").summary.end;
-            let name = format!("{method:?}, {step} s");
-            let after = end.t - arrival;
-            assert!(
-                after < 0.1 * step && after > -1.01 * step,
-                "{name}: {}",
-                end.t
-            );
-            assert!((end.v[1] - 4.905 * end.t).abs() < 1e-8, "{name}: {}", end.v);
         }
     }
 }
