@@ -16,7 +16,6 @@ use crate::{DynamicsError, Mechanism, Real, Singularity, State};
 const JUMP: f64 = 0.1;
 /// Nor was one that moves a state by so many tolerances.
 const TOLERANCES: f64 = 1e4;
-
 /// Square of the part of a step by which a projection may move a state without a closer look.
 const CLOSE: f64 = 1e-8;
 
@@ -42,7 +41,7 @@ enum Leap {
 
 impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
     /// Refuses a projection that moves a state farther than the error of its step can be. Steps of
-    /// fixed length have no bound on their error.
+    /// fixed length have no bound on their error, and the first may begin off the constraints.
     #[inline(always)]
     pub(crate) fn verify_smooth(
         &mut self,
@@ -69,7 +68,7 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
         tolerance: T,
     ) -> Result<(), DynamicsError<T>> {
         let base = self.session.base.as_ref();
-        // A state that begins a motion is put onto the constraints from wherever it is.
+        // What is projected where the step begins was not moved by it.
         let Some(base) = base.filter(|base| state.t > base.t) else {
             return Ok(());
         };
