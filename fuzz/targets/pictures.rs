@@ -16,12 +16,13 @@ mod plot;
 
 use libfuzzer_sys::fuzz_target;
 use plot::{
-    Cloud, Frame, Mark, Marks, Panel, Scale, Series, Shape, Times, frames, panels, work_diagram,
+    Cloud, Frame, Mark, Marks, Panel, Portrait, Scale, Series, Shape, Sheet, Times, frames_as_svg,
+    panels_as_svg, phase_as_svg, work_diagram,
 };
 use std::path::Path;
 
-/// Pictures go nowhere.
-const NOWHERE: &str = "/dev/null";
+/// What messages name: nothing is written.
+const NOWHERE: &str = "nowhere.svg";
 /// Numbers that are drawn: more are slow, not new.
 const MOST: usize = 64;
 const ERRORS: Scale = Scale::Logarithmic {
@@ -29,8 +30,17 @@ const ERRORS: Scale = Scale::Logarithmic {
     high: -12,
 };
 
+/// A screen, or the column of a journal.
+fn sheet(is_printed: bool) -> Sheet<'static> {
+    Sheet {
+        path: Path::new(NOWHERE),
+        title: "fuzz",
+        width: is_printed.then_some(84.0),
+    }
+}
+
 /// A picture of panels over time: times, and two curves.
-fn draw_panels(numbers: &[f64]) {
+fn draw_panels(sheet: &Sheet, numbers: &[f64]) {
     let third = numbers.len() / 3;
     let (times, values) = numbers.split_at(third);
     // The times of a run grow, whatever else becomes of it.
@@ -57,11 +67,11 @@ fn draw_panels(numbers: &[f64]) {
         marks: &marks,
     };
     let all = [panel(Scale::Linear), panel(Scale::Whole), panel(ERRORS)];
-    panels(Path::new(NOWHERE), "fuzz", times, &all).expect("drawn");
+    panels_as_svg(sheet, times, &all).expect("drawn");
 }
 
 /// A picture of configurations.
-fn draw_frames(numbers: &[f64]) {
+fn draw_frames(sheet: &Sheet, numbers: &[f64]) {
     let points: Vec<[f64; 2]> = numbers.as_chunks::<2>().0.to_vec();
     let Some(first) = points.first().copied() else {
         return;
@@ -77,7 +87,22 @@ fn draw_frames(numbers: &[f64]) {
         now: shapes.clone(),
         before: vec![shapes],
     };
-    frames(Path::new(NOWHERE), "fuzz", &[frame]).expect("drawn");
+    frames_as_svg(sheet, &[frame]).expect("drawn");
+}
+
+/// Numbers by twos.
+fn pairs(numbers: &[f64]) -> Vec<(f64, f64)> {
+    let pairs = numbers.as_chunks::<2>().0.iter();
+    pairs.map(|[x, y]| (*x, *y)).collect()
+}
+
+/// A picture of one quantity over another.
+fn draw_portrait(sheet: &Sheet, numbers: &[f64]) {
+    let portrait = Portrait {
+        name: "fuzz".to_string(),
+        points: pairs(numbers),
+    };
+    phase_as_svg(sheet, ["x [m]", "y [m]"], &[portrait]).expect("drawn");
 }
 
 /// A picture of time over error.
@@ -86,12 +111,7 @@ fn draw_work(numbers: &[f64]) {
         name: "fuzz".to_string(),
         colour: 1,
         mark,
-        points: numbers
-            .as_chunks::<2>()
-            .0
-            .iter()
-            .map(|[x, y]| (*x, *y))
-            .collect(),
+        points: pairs(numbers),
     };
     let all = [Mark::Disc, Mark::Ring, Mark::Cross, Mark::Triangle].map(cloud);
     work_diagram(Path::new(NOWHERE), "fuzz", &all).expect("drawn");
@@ -103,9 +123,11 @@ fuzz_target!(|bytes: &[u8]| {
     };
     let numbers = bytes.as_chunks::<8>().0.iter().take(MOST);
     let numbers: Vec<f64> = numbers.map(|bytes| f64::from_le_bytes(*bytes)).collect();
-    match which % 3 {
-        0 => draw_panels(&numbers),
-        1 => draw_frames(&numbers),
+    let sheet = sheet(which & 128 != 0);
+    match which % 4 {
+        0 => draw_panels(&sheet, &numbers),
+        1 => draw_frames(&sheet, &numbers),
+        2 => draw_portrait(&sheet, &numbers),
         _ => draw_work(&numbers),
     }
 });
