@@ -23,6 +23,8 @@ const WIDTH_OF_TICK: u32 = 75;
 const SHORTEST: f64 = 1e-9;
 /// Lines of the grid, about.
 const TICKS: usize = 6;
+/// Powers of ten at a logarithmic axis, at most.
+const MOST_POWERS: usize = 12;
 
 /// A diagram's times: what it shows, and what is marked.
 #[derive(Clone, Copy, Debug)]
@@ -138,9 +140,11 @@ fn vertical(scale: Scale, range: Range) -> Axis {
         Scale::Linear => Axis::numbers(range, TICKS),
         Scale::Whole => Axis::whole(range, TICKS),
         Scale::Logarithmic { low, .. } => {
-            Axis::labelled(range, decades / 2 + 1, |y| match y <= f64::from(low) {
-                true => format!("≤{}", power_of_ten(y)),
-                false => power_of_ten(y),
+            Axis::labelled(range, (decades / 2 + 1).min(MOST_POWERS), |y| {
+                match y <= f64::from(low) {
+                    true => format!("≤{}", power_of_ten(y)),
+                    false => power_of_ten(y),
+                }
             })
         }
     }

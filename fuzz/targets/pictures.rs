@@ -50,7 +50,7 @@ fn draw_panels(sheet: &Sheet, numbers: &[f64]) {
         name: name.to_string(),
         values: values.to_vec(),
     };
-    let panel = |scale| Panel {
+    let panel = |scale, values: &[f64]| Panel {
         axis: "position [m]".to_string(),
         scale,
         series: vec![
@@ -58,6 +58,10 @@ fn draw_panels(sheet: &Sheet, numbers: &[f64]) {
             series("b", &values[third..2 * third]),
         ],
     };
+    let counts: Vec<f64> = values
+        .iter()
+        .map(|value| f64::from(*value as u32))
+        .collect();
     let marks = [Marks {
         times: values[..third.min(2)].to_vec(),
         name: "singular position".to_string(),
@@ -66,7 +70,11 @@ fn draw_panels(sheet: &Sheet, numbers: &[f64]) {
         values: &times,
         marks: &marks,
     };
-    let all = [panel(Scale::Linear), panel(Scale::Whole), panel(ERRORS)];
+    let all = [
+        panel(Scale::Linear, values),
+        panel(Scale::Whole, &counts),
+        panel(ERRORS, values),
+    ];
     panels_as_svg(sheet, times, &all).expect("drawn");
 }
 
