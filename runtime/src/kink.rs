@@ -16,9 +16,6 @@ use crate::{DynamicsError, Mechanism, Real, Singularity, State};
 const JUMP: f64 = 0.1;
 /// Nor was one that moves a state by so many tolerances.
 const TOLERANCES: f64 = 1e4;
-/// Square of the part of a step by which a projection may move a state without a closer look.
-const CLOSE: f64 = 1e-8;
-
 /// The largest entries of coordinates that constraints tie to one another.
 #[derive(Clone, Copy)]
 struct Peaks<T> {
@@ -40,45 +37,27 @@ enum Leap {
 }
 
 impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
-    /// Refuses a projection that moves a state farther than the error of its step can be. Steps of
-    /// fixed length have no bound on their error, and the first may begin off the constraints.
-    #[inline(always)]
+    /// Refuses a projection that moves a state farther than the error of its step can be. The
+    /// first step may begin off the constraints.
+    #[inline(never)]
     pub(crate) fn verify_smooth(
         &mut self,
         mechanism: &dyn Mechanism<T, N, R>,
         state: &State<T, N>,
         placed: &State<T, N>,
     ) -> Result<(), DynamicsError<T>> {
-        match (&self.session.base, self.session.tolerance) {
-            (Some(base), Some(tolerance))
-                if !self.session.begins && !is_close(base, state, placed) =>
-            {
-                self.verify_components(mechanism, (state, placed), tolerance)
-            }
-            _ => Ok(()),
-        }
-    }
-
-    /// The same among the coordinates that constraints tie to one another.
-    #[inline(never)]
-    fn verify_components(
-        &mut self,
-        mechanism: &dyn Mechanism<T, N, R>,
-        (state, placed): (&State<T, N>, &State<T, N>),
-        tolerance: T,
-    ) -> Result<(), DynamicsError<T>> {
         let base = self.session.base.as_ref();
         // What is projected where the step begins was not moved by it.
-        let Some(base) = base.filter(|base| state.t > base.t) else {
+        let Some(base) = base.filter(|base| state.t > base.t && !self.session.begins) else {
             return Ok(());
         };
         let components = mechanism.structure().components;
         let states = [base, state, placed];
         let leap = match components.is_empty() {
-            true => self.leap(peaks(states, 0..N), state.t - base.t, tolerance),
+            true => self.leap(peaks(states, 0..N), state.t - base.t),
             false => components.iter().find_map(|component| {
                 let coordinates = component.coordinates.iter().copied();
-                self.leap(peaks(states, coordinates), state.t - base.t, tolerance)
+                self.leap(peaks(states, coordinates), state.t - base.t)
             }),
         };
         match leap {
@@ -89,9 +68,13 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
 
     /// What a projection changed by more than an error. Comparisons with NaN are false: what is
     /// not finite is refused elsewhere.
-    fn leap(&self, peaks: Peaks<T>, length: T, tolerance: T) -> Option<Leap> {
-        let tolerances = tolerance * T::from_f64(TOLERANCES);
-        let most = |part: T, size: T| part.min(tolerances * (T::one() + size));
+    fn leap(&self, peaks: Peaks<T>, length: T) -> Option<Leap> {
+        let tolerances = self.session.tolerance.map(|x| x * T::from_f64(TOLERANCES));
+        // Steps of fixed length have no bound on their error.
+        let most = |part: T, size: T| match tolerances {
+            Some(tolerances) => part.min(tolerances * (T::one() + size)),
+            None => part,
+        };
         let size = peaks.size.max(self.coordinate_scale.size);
         let noise = round_off::<T>() * critical() * size;
         if peaks.moved > most(peaks.step * T::from_f64(JUMP), peaks.size) + noise {
@@ -123,28 +106,6 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
             structure: mechanism.structure(),
         }
     }
-}
-
-/// Whether a projection moved a state by so little, compared with the step, that nothing leapt.
-#[inline(always)]
-fn is_close<T: Real, const N: usize>(
-    base: &State<T, N>,
-    state: &State<T, N>,
-    placed: &State<T, N>,
-) -> bool {
-    let length = state.t - base.t;
-    let (mut step, mut moved, mut corrected) = (T::zero(), T::zero(), T::zero());
-    for i in 0..N {
-        let (by, x, v) = (
-            state.q[i] - base.q[i],
-            placed.q[i] - state.q[i],
-            placed.v[i] - state.v[i],
-        );
-        step += by * by;
-        moved += x * x;
-        corrected += v * v;
-    }
-    moved + corrected * (length * length) <= step * T::from_f64(CLOSE)
 }
 
 /// The largest entries of some coordinates.

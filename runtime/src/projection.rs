@@ -26,21 +26,25 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
         if !self.is_prepared() {
             self.prepare(&mechanism, state)?;
         }
-        let mut placed = *state;
         if self.session.chart.is_some() && self.follows() && self.is_beside() {
+            let mut placed = *state;
             self.project_onto_sheet(&mechanism, &mut placed)?;
-        } else if self.is_projected() {
-            self.project_regular(mechanism, &mut placed)?;
-            self.verify_smooth(&mechanism, state, &placed)?;
-            if !self.rows.all_independent() {
-                self.verify_velocity(&mechanism, &placed)?;
+            if self.is_projected() {
+                self.counters.projections += 1;
+                *state = placed;
             }
+        } else if self.is_projected() {
+            let stepped = *state;
+            self.project_regular(mechanism, state)?;
+            if self.session.trial.is_moved {
+                self.verify_smooth(&mechanism, &stepped, state)?;
+            }
+            if !self.rows.all_independent() {
+                self.verify_velocity(&mechanism, state)?;
+            }
+            self.counters.projections += 1;
         } else {
             self.session.trial.end = self.sine_where_it_is(&mechanism, state)?;
-        }
-        if self.is_projected() {
-            self.counters.projections += 1;
-            *state = placed;
         }
         finite(state)
     }
@@ -52,12 +56,14 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
         state: &mut State<T, N>,
     ) -> Result<(), DynamicsError<T>> {
         self.safe = None;
+        self.session.trial.is_moved = false;
         let emitted = self.emitted_projection(mechanism, state)?;
         self.session.trial.by_emitted = emitted.is_some();
         let squared = match emitted {
             Some(squared) => squared,
             None => {
                 self.expected = false;
+                self.session.trial.is_moved = true;
                 self.project_by_iteration(&mechanism, state)?
             }
         };

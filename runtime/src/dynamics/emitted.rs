@@ -20,6 +20,9 @@ use nalgebra::SVector;
 /// Coordinates and constraint equations of a mechanism whose pivots fit into registers;
 /// those of a larger one have a buffer that need not be cleared.
 const IN_REGISTERS: usize = 16;
+/// Square of the part of the velocities, and of the coordinates' scale, that a small correction
+/// changes.
+const SMALL: f64 = 1e-8;
 
 /// Corrections after which a position is given up.
 pub(crate) const MAX_ITERATIONS: usize = 20;
@@ -214,9 +217,10 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
     }
 
     /// Whether the constraints are straight, to round-off, over the corrections of the
-    /// residual and of the velocities, so that the state is on them after one correction.
+    /// residual and of the velocities, so that the state is on them after one correction. Takes
+    /// note of corrections that are not small.
     #[inline]
-    fn is_straight(&self, worst: T, squared_sine: T, velocities: &SVector<T, N>) -> bool {
+    fn is_straight(&mut self, worst: T, squared_sine: T, velocities: &SVector<T, N>) -> bool {
         let [corrections] = &self.correction.velocity.data.0;
         let [velocities] = &velocities.data.0;
         let (mut turned, mut whole) = (T::zero(), T::zero());
@@ -229,7 +233,10 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
             worst * worst,
             squared_sine * self.coordinate_scale.range * self.coordinate_scale.range,
         );
-        let (most, round_off) = (negligible::<T>(), T::EPSILON);
+        let (most, round_off, part) = (negligible::<T>(), T::EPSILON, T::from_f64(SMALL));
+        if !(turned <= part * whole && moved <= part * coordinate_scale) {
+            self.session.trial.is_moved = true;
+        }
         moved <= most * most * coordinate_scale
             && moved * turned <= round_off * round_off * coordinate_scale * whole
     }

@@ -69,6 +69,8 @@ pub(crate) struct Trial<T, const N: usize, const R: usize> {
     pub(crate) strays: bool,
     /// Emitted code projected its end.
     pub(crate) by_emitted: bool,
+    /// Its end was projected by corrections that are not small.
+    pub(crate) is_moved: bool,
     /// Some state of it lies next to a configuration where sheets were seen to cross.
     pub(crate) crosses: bool,
 }
@@ -96,6 +98,7 @@ impl<T: Real, const N: usize, const R: usize> Trial<T, N, R> {
             placed: None,
             strays: false,
             by_emitted: false,
+            is_moved: false,
             crosses: false,
         }
     }
@@ -110,6 +113,7 @@ impl<T: Real, const N: usize, const R: usize> Trial<T, N, R> {
         self.inspection_chart = None;
         self.placed = None;
         self.by_emitted = false;
+        self.is_moved = false;
         self.crosses = false;
     }
 }
