@@ -28,43 +28,57 @@ pub enum Singularity {
     Kink,
 }
 
-impl Display for Singularity {
-    fn fmt(&self, f: &mut Formatter<'_>) -> Result {
-        f.write_str(match self {
+impl Singularity {
+    /// What became of a constraint there, one of several or the only one.
+    fn loss(self, is_only: bool) -> &'static str {
+        match (self, is_only) {
+            (Self::Unresolved | Self::Turning | Self::Drifted, true) => {
+                "has a gradient that nearly vanishes, "
+            }
+            (Self::Unresolved | Self::Turning | Self::Drifted, false) => {
+                "nearly depends on the others, "
+            }
+            (Self::Touching | Self::Undetermined, true) => "has a gradient that vanishes, ",
+            (Self::Touching | Self::Undetermined, false) => "depends on the others, ",
+            (Self::Vanishing, _) => "has a gradient that vanishes ",
+            (Self::Kink, _) => "has a kink, ",
+        }
+    }
+
+    /// What follows for the motion, and what to try.
+    fn consequence(self) -> &'static str {
+        match self {
             Self::Unresolved => {
-                "nearly depends on the others, and the branches of motion that meet there can't be \
-                 told apart by the digits of the numbers; if a length was meant to be exactly \
-                 that of another, write both by one parameter"
+                "and the branches of motion that meet there can't be told apart by the digits of \
+                 the numbers; if a length was meant to be exactly that of another, write both by \
+                 one parameter"
             }
             Self::Turning => {
-                "nearly depends on the others, and the branch of motion ends, or turns faster than \
-                 steps can follow; check that what is prescribed can be reached, or take a smaller \
-                 tolerance or step"
+                "and the branch of motion ends, or turns faster than steps can follow; check that \
+                 what is prescribed can be reached, or take a smaller tolerance or step"
             }
             Self::Touching => {
-                "depends on the others where branches of motion touch, so that the way on can't be \
-                 told; describe the branch that is meant by constraints of its own"
+                "and branches of motion touch there, so that the way on can't be told; describe \
+                 the branch that is meant by constraints of its own"
             }
             Self::Drifted => {
-                "nearly depends on the others, and the motion has drifted too far off the \
-                 constraints to tell on which branch it goes on; keep it there by projection, or \
-                 take larger gains or a smaller tolerance"
+                "and the motion has drifted too far off the constraints to tell on which branch it \
+                 goes on; keep it there by projection, or take larger gains or a smaller tolerance"
             }
             Self::Vanishing => {
-                "has a gradient that vanishes not only here but wherever it holds, so that it \
-                 restricts no motion; if it says that a square is zero, write what is squared; \
-                 else check the parameters"
+                "not only here but wherever it holds, so that it restricts no motion; if it says \
+                 that a square is zero, write what is squared; else check the parameters"
             }
             Self::Kink => {
-                "has a kink, as a length has where it becomes zero: the velocities that it allows \
-                 jump, and no smooth motion goes on; end the run before, or describe by an event \
-                 what happens there"
+                "as a length has where it becomes zero: the velocities that it allows jump, and no \
+                 smooth motion goes on; end the run before, or describe by an event what happens \
+                 there"
             }
             Self::Undetermined => {
-                "depends on the others, and nothing tells which of the branches of motion that \
-                 cross there is meant; begin next to this configuration, or with a velocity"
+                "and nothing tells which of the branches of motion that cross there is meant; \
+                 begin next to this configuration, or with a velocity"
             }
-        })
+        }
     }
 }
 
@@ -358,11 +372,17 @@ fn write_shared<T: Real>(
 ) -> Result {
     write!(f, "at t = {t} s the constraint ", t = Number(t))?;
     structure.write_constraint(f, row)?;
-    f.write_str(
-        " depends on the others, and how they share their reactions is not determined; ask for \
-         the reactions at coordinates, `reactions`, which are, or leave out the constraints that \
-         follow from others",
-    )
+    f.write_str(match structure.constraints.len() {
+        1 => {
+            " has a gradient that vanishes, and its multiplier is not determined; ask for the \
+             reactions at coordinates, `reactions`, which are"
+        }
+        _ => {
+            " depends on the others, and how they share their reactions is not determined; ask \
+             for the reactions at coordinates, `reactions`, which are, or leave out the \
+             constraints that follow from others"
+        }
+    })
 }
 
 /// Which constraint is concerned, and what is the matter with it.
@@ -374,7 +394,9 @@ fn write_singular<T: Real>(
 ) -> Result {
     write!(f, "at t = {t} s the constraint ", t = Number(t))?;
     structure.write_constraint(f, row)?;
-    write!(f, " {kind}")
+    f.write_str(" ")?;
+    f.write_str(kind.loss(structure.constraints.len() == 1))?;
+    f.write_str(kind.consequence())
 }
 
 impl<T: Real> core::error::Error for DynamicsError<T> {}

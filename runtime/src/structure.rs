@@ -240,6 +240,11 @@ impl Structure {
     ) -> core::fmt::Result {
         const FEW: usize = 4;
         let rows = self.constraints.len();
+        if rows == 1 {
+            f.write_str("the gradient of the only constraint equation, ")?;
+            self.write_constraint(f, 0)?;
+            return f.write_str(", vanishes");
+        }
         let verb = if rank == 1 { "is" } else { "are" };
         write!(
             f,

@@ -148,14 +148,14 @@ pub const MOTIONS: &[Case] = &[
             options.until = 2.0;
             from(Point::on(crossing), THROUGH, options)
         },
-        "at t = … s only 0 of the 1 constraint equations are independent: `g = 0` (line 3), and \
+        "at t = … s the gradient of the only constraint equation, `g = 0` (line 3), vanishes, and \
          the form `multipliers` cannot pass a singular position; use the form `reduced` or `full`",
     ),
     (
         "Singularity::Unresolved",
         "three lines that meet in a point, passed",
         || from(Point::on(three_lines), [[0.495, 0.495], [1.0, 1.0]], rk4()),
-        "at t = … s the constraint `g = 0` (line 3) nearly depends on the others, and the \
+        "at t = … s the constraint `g = 0` (line 3) has a gradient that nearly vanishes, and the \
          branches of motion that meet there can't be told apart by the digits of the numbers; if \
          a length was meant to be exactly that of another, write both by one parameter",
     ),
@@ -163,7 +163,7 @@ pub const MOTIONS: &[Case] = &[
         "Singularity::Turning",
         "a cusp, `(y - 1)^2 = (x - 1)^3`, passed",
         || from(Point::on(cusp), [[1.25, 0.875], [-1.0, 0.75]], rk4()),
-        "at t = … s the constraint `g = 0` (line 3) nearly depends on the others, and the branch \
+        "at t = … s the constraint `g = 0` (line 3) has a gradient that nearly vanishes, and the branch \
          of motion ends, or turns faster than steps can follow; check that what is prescribed can \
          be reached, or take a smaller tolerance or step",
     ),
@@ -171,8 +171,8 @@ pub const MOTIONS: &[Case] = &[
         "Singularity::Touching",
         "`(x - 1)^2*(y - 1) = 0`, where one of two crossing lines counts twice",
         || from(Point::on(doubled), THROUGH, rk4()),
-        "at t = … s the constraint `g = 0` (line 3) depends on the others where branches of \
-         motion touch, so that the way on can't be told; describe the branch that is meant by \
+        "at t = … s the constraint `g = 0` (line 3) has a gradient that vanishes, and branches of \
+         motion touch there, so that the way on can't be told; describe the branch that is meant by \
          constraints of its own",
     ),
     (
@@ -183,7 +183,7 @@ pub const MOTIONS: &[Case] = &[
             options.settings.stabilisation = Stabilisation::None;
             from(Point::on(crossing), [[0.5, 1.002], [1.0, 0.0]], options)
         },
-        "at t = … s the constraint `g = 0` (line 3) nearly depends on the others, and the motion \
+        "at t = … s the constraint `g = 0` (line 3) has a gradient that nearly vanishes, and the motion \
          has drifted too far off the constraints to tell on which branch it goes on; keep it \
          there by projection, or take larger gains or a smaller tolerance",
     ),
@@ -198,7 +198,7 @@ pub const MOTIONS: &[Case] = &[
             };
             from(point, [[1.0, 1.0], [0.0, 0.0]], rk4())
         },
-        "at t = 0 s the constraint `g = 0` (line 3) depends on the others, and nothing tells \
+        "at t = 0 s the constraint `g = 0` (line 3) has a gradient that vanishes, and nothing tells \
          which of the branches of motion that cross there is meant; begin next to this \
          configuration, or with a velocity",
     ),
@@ -230,7 +230,7 @@ pub const MOTIONS: &[Case] = &[
             options.until = 2.0;
             from(point, THROUGH, options)
         },
-        "at t = … s only 0 of the 1 constraint equations are independent: `g = 0` (line 3), \
+        "at t = … s the gradient of the only constraint equation, `g = 0` (line 3), vanishes, \
          though the mechanism was declared to be regular; generate it without that declaration",
     ),
     (
@@ -278,9 +278,8 @@ pub const MOTIONS: &[Case] = &[
             let error = DynamicsError::SharedReaction { t, row, structure };
             Said::of(shared.and_then(|each| each[row].ok_or(error)))
         },
-        "at t = 0 s the constraint `g = 0` (line 3) depends on the others, and how they share \
-         their reactions is not determined; ask for the reactions at coordinates, `reactions`, \
-         which are, or leave out the constraints that follow from others",
+        "at t = 0 s the constraint `g = 0` (line 3) has a gradient that vanishes, and its \
+         multiplier is not determined; ask for the reactions at coordinates, `reactions`, which are",
     ),
     (
         "DynamicsError::Sticks",
