@@ -344,27 +344,29 @@ impl<T: Real> RowsView<'_, T> {
     }
 }
 
-/// Gives rows the weights `1 / Σ aⱼ²/mⱼⱼ` over the coordinates with inertia, so that the row
-/// weighs as much as the masses it connects. Where a row vanishes the weight stays what it was.
+/// Gives rows the weights `1 / Σ aⱼ²/mⱼⱼ`, so that the row weighs as much as the masses it
+/// connects. Coordinates without inertia count as if they had the largest: where a row restricts
+/// hardly anything else, it would weigh as much as one likes. Where a row vanishes the weight stays
+/// what it was.
 fn weigh<T: Real>(weights: &mut [T], inertia: &[T], jacobian: &[T]) {
     let r = weights.len();
     let heaviest = inertia.iter().fold(T::zero(), |most: T, m| most.max(*m));
+    let heaviest = if heaviest > T::zero() {
+        heaviest
+    } else {
+        T::one()
+    };
     for (row, known) in weights.iter_mut().enumerate() {
-        let (mut with, mut without) = (T::zero(), T::zero());
+        let mut sum = T::zero();
         for (levers, inertia) in jacobian.chunks_exact(r).zip(inertia) {
-            let square = levers[row] * levers[row];
-            without += square;
-            if *inertia > T::zero() {
-                with += square / *inertia;
-            }
+            let inertia = if *inertia > T::zero() {
+                *inertia
+            } else {
+                heaviest
+            };
+            sum += levers[row] * levers[row] / inertia;
         }
-        let weight = if with > T::zero() {
-            T::one() / with
-        } else if heaviest > T::zero() {
-            heaviest / without
-        } else {
-            T::one() / without
-        };
+        let weight = T::one() / sum;
         let lighter = *known > T::zero() && *known < weight;
         if weight.is_finite() && !lighter {
             *known = weight;

@@ -4,6 +4,7 @@ use bricard_runtime::nalgebra::SVector;
 use bricard_runtime::{Form, Interface, Options, Summary, assemble, simulate};
 use bricard_singular::descriptions::guided_body::GuidedBody;
 use bricard_singular::descriptions::leg::Leg;
+use bricard_singular::descriptions::two_slots::TwoSlots;
 use bricard_singular::{Score, Trial, judge};
 
 /// Demands right rows, and the right number of passages.
@@ -94,5 +95,22 @@ fn a_body_on_a_slide_is_guided_from_every_guess() {
             let off = (end.end.q - SVector::from(guided)).amax();
             assert!(off < 1e-9, "{first} {x} {y} {z}: off by {off}");
         }
+    }
+}
+
+/// Where a constraint restricts hardly anything but a coordinate without inertia, it weighs no more
+/// than what it connects elsewhere: wherever the motion starts, no configuration looks singular.
+#[test]
+fn a_constraint_of_a_length_without_inertia_alone_looks_regular() {
+    for beside in [-1.5, -0.1, -1e-3, -1e-7, 0.0, 1e-5, 0.02] {
+        let angle = core::f64::consts::FRAC_PI_2 + beside;
+        let mut slots = TwoSlots::<f64>::default();
+        slots.parameters.angle = angle;
+        let start = assemble(&slots, &slots.start(), 0.0).expect("the start assembles");
+        let ran = simulate(&slots, &start, &Options::dop853(5.0, 1e-9), &mut []);
+        let Summary { end, counters, .. } = ran.unwrap_or_else(|error| panic!("{beside}: {error}"));
+        let late = end.q[0] - angle - 10.0 * end.t;
+        assert!(late.abs() < 1e-6, "{beside}: {late:e}");
+        assert_eq!(counters.beside_accelerations, 0, "{beside}");
     }
 }
