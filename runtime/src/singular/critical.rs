@@ -127,7 +127,7 @@ impl<T: Real> Sheet<'_, T> {
         cross: &Cross<'_, T>,
         workspace: &Workspace<'_, T>,
     ) -> Result<Search<T>, Obstacle> {
-        let q = workspace.numbers(self.chart.n());
+        let [q, onto] = [(); 2].map(|()| workspace.numbers(self.chart.n()));
         let step = best.spacing / direction.rate;
         let length = self.chart.length(cross.across);
         let (mut place, mut aside) = (T::zero(), T::zero());
@@ -136,12 +136,15 @@ impl<T: Real> Sheet<'_, T> {
             let t = direction.moved(state, direction.centre + step * place, q);
             best.add_offset_at(place, q);
             add_scaled(q, aside, cross.across);
+            add_scaled(q, T::one(), onto);
             self.eliminate((t, q), Some(like))?;
             let ahead = self.frame.block().first() / best.slope;
             let off = self.reduced_change(cross.along, cross.time) / best.slope;
             unsure = (ahead * off * best.slope).abs();
+            // Where interpolation is not exact the other constraints do not hold, either.
+            let corrected = self.correct(onto);
             // Directions are not exact, so that the squares of what is left count, too.
-            let left = (ahead * step).abs() + off.abs() * length;
+            let left = (ahead * step).abs() + off.abs() * length + corrected;
             found = left * left * (best.slope / step).abs() <= cross.round_off;
             if found {
                 break;

@@ -282,13 +282,15 @@ impl<'a, T: Real> Sheet<'a, T> {
         Ok(())
     }
 
-    /// Corrects a position whose frame is at hand in the rows that are safely independent.
-    pub(super) fn correct(&mut self, q: &mut [T]) {
+    /// Corrects a position whose frame is at hand in the rows that are safely independent; the
+    /// length of the correction.
+    pub(super) fn correct(&mut self, q: &mut [T]) -> T {
         let chart = &self.chart;
         let right = chart.right(-T::one(), self.equations.constraints().residual);
         let scales = chart.column_scale;
         self.frame.solve_independent(right, scales, self.solution);
         add_scaled(q, T::one(), self.solution);
+        chart.length(self.solution)
     }
 
     /// The largest of the constraints that is left when the rows before the near-dependent
