@@ -11,6 +11,9 @@ use super::basis::{INSIDE, dot, norm, subtract};
 use super::numbers::{Numbers, Place};
 use super::rows::ENOUGH;
 
+/// Rows that are farther from the others than this are independent.
+const REGULAR: f64 = 1e-3;
+
 /// The rows that follow from the others wherever the constraints hold, in ascending order.
 pub fn rows(numbers: &Numbers) -> Vec<usize> {
     let rows = at_samples(numbers).unwrap_or_default();
@@ -35,14 +38,20 @@ fn at_samples(numbers: &Numbers) -> Option<Vec<usize>> {
         .iter()
         .map(|place| directions(numbers, place))
         .collect();
+    let mut start = numbers.assembled().map(|place| directions(numbers, &place));
     let count = places[0].len();
     let mut left: Vec<usize> = (0..count).collect();
     while let Some(best) = farthest(numbers, &places, &left) {
         left.retain(|row| *row != best);
-        places.iter_mut().for_each(|rows| remove(rows, best, &left));
+        // A start at which rows depend that do not elsewhere is singular, and tells nothing.
+        start = start.filter(|rows| norm(&rows[best]) > REGULAR);
+        let places = places.iter_mut().chain(&mut start);
+        places.for_each(|rows| remove(rows, best, &left));
     }
-    // A row that follows at some positions only may be needed at others.
-    let follows = |row: &usize| places.iter().all(|rows| norm(&rows[*row]) <= INSIDE);
+    // A row that follows at some positions only may be needed at others. Random positions may all
+    // come to lie on a branch of which the motion knows nothing: the start need not.
+    let places = places.iter().chain(&start);
+    let follows = |row: &usize| places.clone().all(|rows| norm(&rows[*row]) <= INSIDE);
     Some(match left.iter().all(follows) {
         true => left,
         false => Vec::new(),

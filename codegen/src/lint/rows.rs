@@ -57,11 +57,14 @@ pub fn warn_of_flat(numbers: &Numbers, flat: &BTreeSet<usize>, found: &mut Diagn
 /// Warns of equations that follow from others.
 pub fn warn_of_redundant(numbers: &Numbers, flat: &BTreeSet<usize>, found: &mut Diagnostics) {
     let samples = numbers.samples();
-    let judged: Vec<_> = samples
-        .iter()
-        .map(|place| dependent(numbers, place))
-        .collect();
-    let Some((first, others)) = judged.split_first().filter(|_| judged.len() >= ENOUGH) else {
+    if samples.len() < ENOUGH {
+        return;
+    }
+    // Random positions may all come to lie on a branch of which the motion knows nothing.
+    let start = numbers.assembled();
+    let places = samples.iter().chain(&start);
+    let judged: Vec<_> = places.map(|place| dependent(numbers, place)).collect();
+    let Some((first, others)) = judged.split_first() else {
         return;
     };
     for (row, partners) in first {
