@@ -257,4 +257,26 @@ fn a_constraint_may_have_a_name_that_messages_call_it_by() {
     let m = accept(source);
     let texts: Vec<&str> = m.constraints.iter().map(|row| row.text.as_str()).collect();
     assert_eq!(texts, ["pin: x = y", "arm: x = i [i=0]"]);
+    let twice = source.replace("constraint pin", "constraint pin: y = 1; constraint pin");
+    refuse_saying(&twice, "`pin` is declared twice");
+}
+
+/// Random positions near the start of rhombi in a row are all assembled with some of them folded,
+/// where the two constraints of each are one.
+#[test]
+fn a_row_that_the_start_shows_to_be_independent_follows_from_no_others() {
+    let source = "mechanism Rhombi {
+        const N = 6; param L = 0.2;
+        coord u[N]; coord w[N]; coord x[N];
+        let left[i in 0..N] = if i == 0 then [0, 0] else [x[i-1], 0];
+        for i in 0..N {
+            let T = left[i] + L*[cos(u[i]), sin(u[i])];
+            let B = left[i] + L*[cos(w[i]), sin(w[i])];
+            kinetic norm2(der(T)) + norm2(der(B)) + der(x[i])^2;
+            constraint norm2(T - [x[i], 0]) = L^2;
+            constraint norm2(B - [x[i], 0]) = L^2;
+            start { u[i] = 60*deg; w[i] ~ -60*deg; x[i] ~ 0.2*(i+1); }
+        }
+    }";
+    assert_eq!(warnings(source), "");
 }
