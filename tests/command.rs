@@ -642,6 +642,15 @@ fn a_negative_mass_is_refused_by_its_coordinate() {
 }
 
 #[test]
+fn an_energy_that_does_not_add_up_is_warned_of() {
+    let warning = "warning: the energy is off by ";
+    let ran = bricard(&words("simulate cart_pole --until 20 --step 1")).done();
+    ran.says(&[warning, "take smaller steps"]);
+    let ran = bricard(&words("simulate cart_pole --until 20 --step 0.05")).done();
+    assert!(!ran.err.contains(warning), "{}", ran.err);
+}
+
+#[test]
 fn values_that_would_do_silently_what_nobody_wants_are_refused() {
     let name = ["simulate", "slider_crank", "--until", "1"];
     let wrong: [(&[&str], &[&str]); 7] = [

@@ -169,7 +169,7 @@ fn checkpoints_of_other_runs_are_refused() {
         fs::write(&file, text).expect("a file can be written");
         check_refused(&go_on, 2, &["can't go on from", "no checkpoint"]);
     }
-    fs::write(&file, r#"{"format": 3, "run": "another"}"#).expect("a file can be written");
+    fs::write(&file, r#"{"format": 4, "run": "another"}"#).expect("a file can be written");
     check_refused(&go_on, 2, &["another run", "same mechanism and options"]);
 }
 

@@ -32,6 +32,7 @@ fn checkpoint() -> Checkpoint {
             wall: Duration::from_millis(125),
             constraint_error: 1e-16,
             energy_error: f64::NAN,
+            energy_exchanged: 2.5,
             passages: vec![Passage {
                 t: 0.2,
                 sine: 1e-9,

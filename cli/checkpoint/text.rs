@@ -13,7 +13,7 @@ use serde_json::{Value, json};
 use std::time::Duration;
 
 /// The version of the file.
-const FORMAT: u64 = 3;
+const FORMAT: u64 = 4;
 /// The time at which every run begins (s).
 const BEGINNING: f64 = 0.0;
 /// More steps, rows or seconds than any run comes to: sums of such numbers overflow
@@ -101,7 +101,7 @@ impl Checkpoint {
             "bytes": self.rows.bytes,
             "steps": report.steps,
             "rejected": report.rejected,
-            "errors": bits(&[report.constraint_error, report.energy_error]),
+            "errors": bits(&[report.constraint_error, report.energy_error, report.energy_exchanged]),
             "seconds": report.wall.as_secs_f64().to_bits(),
             "passages": passages,
             "events": events,
@@ -113,7 +113,8 @@ impl Checkpoint {
         let [t, energy, supplied] = numbers(&value["origin"])?[..] else {
             return None;
         };
-        let [constraint_error, energy_error] = numbers(&value["errors"])?[..] else {
+        let [constraint_error, energy_error, energy_exchanged] = numbers(&value["errors"])?[..]
+        else {
             return None;
         };
         let seconds = f64::from_bits(value["seconds"].as_u64()?);
@@ -141,6 +142,7 @@ impl Checkpoint {
                 wall: Some(wall).filter(|wall| wall.as_secs() < COUNTLESS)?,
                 constraint_error,
                 energy_error,
+                energy_exchanged,
                 passages: passages.collect::<Option<_>>()?,
                 events: events.collect::<Option<_>>()?,
                 counters: counters(&value["counters"])?,

@@ -21,6 +21,8 @@ pub struct Report {
     pub constraint_error: f64,
     /// The largest difference between the energy and what it should be (J).
     pub energy_error: f64,
+    /// The largest energy that was exchanged between its forms, or supplied (J).
+    pub energy_exchanged: f64,
     /// Passages through singular positions.
     pub passages: Vec<Passage<f64>>,
     /// Events: the name and the time (s) of each.
@@ -37,6 +39,7 @@ impl Report {
         self.wall += reached.wall;
         self.constraint_error = largest([self.constraint_error, reached.constraint_error]);
         self.energy_error = largest([self.energy_error, reached.energy_error]);
+        self.energy_exchanged = largest([self.energy_exchanged, reached.energy_exchanged]);
         self.passages.extend(&reached.passages);
         let event = |(place, t): &(usize, f64)| Some((structure.events.get(*place)?.name, *t));
         self.events.extend(reached.events.iter().filter_map(event));

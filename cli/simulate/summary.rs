@@ -12,11 +12,34 @@ const LISTED: usize = 20;
 /// Constraint error (m or rad) above which a motion is not that of the mechanism.
 const DRIFTED: f64 = 1e-3;
 
+/// Part of the exchanged energy by which the energy may be off.
+const UNBALANCED: f64 = 0.1;
+
 /// What was done and how well, one quantity in a line.
 pub fn summary(report: &Report, structure: &Structure, settings: &Settings<f64>) -> String {
     let rows = quantities(report, structure, settings);
     let rows: Vec<Vec<String>> = rows.into_iter().map(Vec::from).collect();
-    aligned(&rows, &[Align::Left, Align::Left]) + &drifted(report, settings)
+    let mut text = aligned(&rows, &[Align::Left, Align::Left]);
+    text += &drifted(report, settings);
+    text += &unbalanced(report);
+    text
+}
+
+/// What to say of a motion whose energy does not add up.
+fn unbalanced(report: &Report) -> String {
+    let Report {
+        energy_error: error,
+        energy_exchanged: exchanged,
+        ..
+    } = *report;
+    match error > UNBALANCED * exchanged {
+        false => String::new(),
+        true => format!(
+            "warning: the energy is off by {error:.1e} J, where {exchanged:.1e} J at most were \
+             exchanged, and the motion is not that of the mechanism; take smaller steps, or a \
+             tolerance instead of steps of one length\n"
+        ),
+    }
 }
 
 /// What to say of a motion that has drifted off the constraints.

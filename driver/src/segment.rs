@@ -56,6 +56,8 @@ pub struct Reached {
     pub constraint_error: f64,
     /// The largest difference between the energy and what it should be (J).
     pub energy_error: f64,
+    /// The largest energy that was exchanged between its forms, or supplied (J).
+    pub energy_exchanged: f64,
     /// Passages through singular positions.
     pub passages: Vec<Passage<f64>>,
     /// Events: the place in [`Structure::events`](bricard_runtime::Structure::events) and

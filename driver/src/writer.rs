@@ -113,6 +113,7 @@ impl<'a, const N: usize> Writer<'a, N> {
             wall: Duration::ZERO,
             constraint_error: constraint,
             energy_error: summary.energy_error.unwrap_or(0.0),
+            energy_exchanged: summary.energy_exchanged.unwrap_or(0.0),
             passages: self.passages,
             events: self.events,
             counters: summary.counters,

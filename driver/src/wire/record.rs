@@ -91,7 +91,7 @@ records! {
     Segment { options, from, every, columns, rows, short }
     Reached {
         state, origin, rows, error, steps, rejected, wall, constraint_error, energy_error,
-        passages, events, counters
+        energy_exchanged, passages, events, counters
     }
 }
 

@@ -75,6 +75,7 @@ fn reached() -> Reached {
         wall: Duration::new(3, 999_999_999),
         constraint_error: 1e-16,
         energy_error: 0.0,
+        energy_exchanged: 2.0,
         passages: vec![Passage {
             t: 0.5,
             sine: 1e-9,

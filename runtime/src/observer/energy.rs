@@ -19,6 +19,9 @@ const PART: f64 = 10.0;
 const OF_FIXED: f64 = 1e-6;
 /// The least of both, in units of round-off.
 const ROUND_OFF: f64 = 1e3;
+/// What is exchanged counts as no less than this part of the energies, in units of round-off:
+/// where a mechanism rests, that of many steps adds up.
+const RESTS: f64 = 1e6;
 
 /// Compares the energy with the power that was supplied.
 ///
@@ -36,6 +39,9 @@ pub struct EnergyAudit<T> {
     accuracy: T,
     error: T,
     largest: T,
+    /// The potential energy at the start.
+    potential: T,
+    exchanged: T,
 }
 
 impl<T: Real> Default for EnergyAudit<T> {
@@ -67,12 +73,21 @@ impl<T: Real> EnergyAudit<T> {
             accuracy,
             error: T::zero(),
             largest: T::zero(),
+            potential: T::zero(),
+            exchanged: T::zero(),
         }
     }
 
     /// The largest difference so far (J).
     pub fn largest(&self) -> T {
         self.largest
+    }
+
+    /// The largest energy so far that was kinetic, taken from the potential energy, or supplied
+    /// (J): what [`largest`](Self::largest) is to be compared with. No less than may be round-off
+    /// of the energies.
+    pub fn exchanged(&self) -> T {
+        self.exchanged
     }
 
     /// The difference at the end of the last step (J), with its sign.
@@ -121,6 +136,21 @@ impl<T: Real> EnergyAudit<T> {
         whole.refined(&mut power, self.accuracy, least)
     }
 
+    /// Takes note of how much energy was exchanged until a step ended with these energies.
+    fn observe(&mut self, energy: &Energy<T>) {
+        let Energy {
+            kinetic, potential, ..
+        } = *energy;
+        let round_off = T::EPSILON * T::from_f64(RESTS) * (kinetic.abs() + potential.abs());
+        let forms = [
+            kinetic.abs(),
+            (potential - self.potential).abs(),
+            self.supplied.abs(),
+            round_off,
+        ];
+        self.exchanged = forms.into_iter().fold(self.exchanged, T::max);
+    }
+
     /// Adds to the supplied energy without losing small parts (Kahan).
     fn supply(&mut self, energy: T) {
         let part = energy - self.lost;
@@ -150,7 +180,10 @@ impl<T: Real, const N: usize> Observer<T, N> for EnergyAudit<T> {
         probe: &mut dyn Probe<T, N>,
     ) -> Result<ControlFlow<()>, DynamicsError<T>> {
         *self = Self::with_accuracy(self.accuracy);
-        self.start = balance(state.t, &probe.energy(state))?;
+        let energy = probe.energy(state);
+        self.start = balance(state.t, &energy)?;
+        self.potential = energy.potential;
+        self.observe(&energy);
         self.conservative = probe.structure().conservative;
         Ok(ControlFlow::Continue(()))
     }
@@ -170,6 +203,7 @@ impl<T: Real, const N: usize> Observer<T, N> for EnergyAudit<T> {
         }
         self.error = balance - self.start - self.supplied;
         self.largest = self.largest.max(self.error.abs());
+        self.observe(&energy);
         Ok(ControlFlow::Continue(()))
     }
 

@@ -201,6 +201,7 @@ impl<'a, 'b, T: Real, const N: usize> Observers<'a, 'b, T, N> {
             passages: self.passages,
             constraint_error: self.constraints.as_ref().map(ConstraintAudit::largest),
             energy_error: self.energy.as_ref().map(EnergyAudit::largest),
+            energy_exchanged: self.energy.as_ref().map(EnergyAudit::exchanged),
             energy_supplied: self.energy.as_ref().map(EnergyAudit::supplied),
             ..done
         }

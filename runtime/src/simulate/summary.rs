@@ -28,6 +28,8 @@ pub struct Summary<T, const N: usize> {
     /// The largest difference between the energy and what the power supplied
     /// makes it (J), if it was audited.
     pub energy_error: Option<T>,
+    /// The largest energy that was exchanged between its forms, or supplied (J), if it was audited.
+    pub energy_exchanged: Option<T>,
     /// What the power has supplied since the run began (J), if it was audited.
     pub energy_supplied: Option<T>,
     /// Whether an observer broke the run off before its end.
@@ -47,6 +49,7 @@ impl<T: Real, const N: usize> Summary<T, N> {
             passages: None,
             constraint_error: None,
             energy_error: None,
+            energy_exchanged: None,
             energy_supplied: None,
             stopped: false,
         }
