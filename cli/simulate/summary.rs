@@ -36,8 +36,8 @@ fn unbalanced(report: &Report) -> String {
         false => String::new(),
         true => format!(
             "warning: the energy is off by {error:.1e} J, where {exchanged:.1e} J at most were \
-             exchanged, and the motion is not that of the mechanism; take smaller steps, or a \
-             tolerance instead of steps of one length\n"
+             exchanged, and the motion is not that of the mechanism; take smaller steps or a \
+             smaller tolerance\n"
         ),
     }
 }
