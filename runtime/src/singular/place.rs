@@ -30,6 +30,11 @@ const STRAYS: f64 = 10.0;
 /// more than this factor.
 const NEARLY: f64 = 4.0;
 
+/// Where no interpolation serves, the equations at the state do, unless their round-off is more than
+/// this many errors that are accepted. By experiment: with less, loops that become singular at once
+/// are given up where they are too far from it for narrow nodes.
+const MAGNIFIED: f64 = 300.0;
+
 /// Interpolations: the best one, and room for others.
 type Tried<'a, T> = [Interpolated<'a, T>; 3];
 const BEST: usize = 0;
@@ -118,7 +123,7 @@ impl<T: Real> Sheet<'_, T> {
         }
         // Next to a gap the sheet is as smooth as it is narrow, and short steps follow it.
         let gap = self.chart.gap || placement == Placement::Gap;
-        let noise = self.chart.accepted * T::from_f64(10.0);
+        let noise = self.chart.accepted * T::from_f64(MAGNIFIED);
         let is_noise =
             !gap && self.chart.moves() && sine < window() && T::EPSILON > noise * sine * sine;
         if let Some(why) = why.filter(|_| is_noise) {
