@@ -1,6 +1,8 @@
 //! Several loops that become singular at the same instant.
 
 use bricard_runtime::{Form, Interface, Method, Options, assemble, simulate};
+use bricard_singular::descriptions::scissor_lift::ScissorLift;
+use bricard_singular::descriptions::scissor_lift_reduced::ScissorLiftReduced;
 use bricard_singular::descriptions::three_folds::ThreeFolds;
 use bricard_singular::descriptions::two_folds::TwoFolds;
 
@@ -69,6 +71,32 @@ fn loops_that_fold_shortly_one_after_the_other_are_two_passages() {
                 let done = done.unwrap_or_else(|failure| panic!("{name}: {failure}"));
                 assert_eq!(done.passages, Some(done.events), "{name}");
             }
+        }
+    }
+}
+
+/// Beside the configuration where all storeys fold no nodes are narrow enough for a tight
+/// tolerance, and the equations at the state itself are exact enough.
+#[test]
+fn storeys_that_fold_together_pass_at_any_tolerance() {
+    let (lift, reduced) = (ScissorLift::<f64>::default(), ScissorLiftReduced::default());
+    let start = assemble::<f64, _, 1, 0>(&reduced, &reduced.start(), 0.0).expect("a start");
+    let exact = simulate::<_, _, 1, 0>(&reduced, &start, &Options::dop853(2.0, 1e-13), &mut []);
+    let exact = exact.expect("it has no constraints").end.q[0];
+    let start = assemble::<f64, _, 13, 12>(&lift, &lift.start(), 0.0).expect("a start");
+    for method in [Method::Dop853, Method::Dp5, Method::Radau9] {
+        for tolerance in [1e-8, 1e-10, 1e-11, 1e-12] {
+            let name = format!("{method:?} {tolerance:e}");
+            let options = Options {
+                method,
+                ..Options::dop853(2.0, tolerance)
+            };
+            let done = simulate::<_, _, 13, 12>(&lift, &start, &options, &mut [])
+                .unwrap_or_else(|failure| panic!("{name}: {failure}"));
+            let angles = done.end.q.iter().skip(1);
+            let off = angles.fold(0.0_f64, |off, angle| off.max((angle - exact).abs()));
+            assert!(off < 200.0 * tolerance + 1e-9, "{name}: {off:e}");
+            assert_eq!(done.passages, Some(6), "{name}");
         }
     }
 }
