@@ -166,9 +166,10 @@ impl Cursor<'_> {
             let goes_on = goes_on
                 .iter()
                 .any(|sign| whole.kind == TokenKind::Symbol(sign));
-            return Some(match goes_on {
-                true => format!("what a function is of stands in parentheses: `{left}(…)`"),
-                false => format!("write `{left}({right})`"),
+            return Some(match (opens, goes_on) {
+                (true, _) => format!("nothing stands in front of a function: write `{left}(…)`"),
+                (_, true) => format!("what a function is of stands in parentheses: `{left}(…)`"),
+                (_, false) => format!("write `{left}({right})`"),
             });
         }
         let left = if left == ")" { "(…)" } else { left };

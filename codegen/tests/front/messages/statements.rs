@@ -22,6 +22,7 @@ pub const STATEMENTS: &[&str] = &[
     "output a = reaction(pin);",
     "output a = sum(3 in 0..2, q);",
     "output a = max(q w);",
+    "output a = math.cos(q);",
     "fn f;",
     "fn 3(x) = x;",
     "fn f(3) = 1;",
