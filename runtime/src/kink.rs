@@ -16,6 +16,7 @@ use crate::{DynamicsError, Mechanism, Real, Singularity, State};
 const JUMP: f64 = 0.1;
 /// Nor was one that moves a state by so many tolerances.
 const TOLERANCES: f64 = 1e4;
+
 /// The largest entries of coordinates that constraints tie to one another.
 #[derive(Clone, Copy)]
 struct Peaks<T> {

@@ -38,24 +38,43 @@ fn at_samples(numbers: &Numbers) -> Option<Vec<usize>> {
         .iter()
         .map(|place| directions(numbers, place))
         .collect();
-    let mut start = numbers.assembled().map(|place| directions(numbers, &place));
     let count = places[0].len();
     let mut left: Vec<usize> = (0..count).collect();
+    let mut chosen = Vec::new();
     while let Some(best) = farthest(numbers, &places, &left) {
         left.retain(|row| *row != best);
-        // A start at which rows depend that do not elsewhere is singular, and tells nothing.
-        start = start.filter(|rows| norm(&rows[best]) > REGULAR);
-        let places = places.iter_mut().chain(&mut start);
-        places.for_each(|rows| remove(rows, best, &left));
+        places.iter_mut().for_each(|rows| remove(rows, best, &left));
+        chosen.push(best);
     }
-    // A row that follows at some positions only may be needed at others. Random positions may all
-    // come to lie on a branch of which the motion knows nothing: the start need not.
-    let places = places.iter().chain(&start);
-    let follows = |row: &usize| places.clone().all(|rows| norm(&rows[*row]) <= INSIDE);
-    Some(match left.iter().all(follows) {
-        true => left,
-        false => Vec::new(),
-    })
+    // A row that follows at some positions only may be needed at others.
+    let follows = |row: &usize| places.iter().all(|rows| norm(&rows[*row]) <= INSIDE);
+    Some(
+        match left.iter().all(follows) && may_follow_at_start(numbers, &chosen, &left) {
+            true => left,
+            false => Vec::new(),
+        },
+    )
+}
+
+/// Whether the start does not contradict that rows follow from the chosen ones: random positions
+/// may all come to lie on a branch of which the motion knows nothing.
+fn may_follow_at_start(numbers: &Numbers, chosen: &[usize], left: &[usize]) -> bool {
+    if left.is_empty() {
+        return true;
+    }
+    let Some(start) = numbers.assembled() else {
+        return true;
+    };
+    let mut rows = directions(numbers, &start);
+    let order = [chosen, left].concat();
+    for (place, &best) in chosen.iter().enumerate() {
+        // A start at which rows depend that do not elsewhere is singular, and tells nothing.
+        if norm(&rows[best]) <= REGULAR {
+            return true;
+        }
+        remove(&mut rows, best, &order[place + 1..]);
+    }
+    left.iter().all(|row| norm(&rows[*row]) <= INSIDE)
 }
 
 /// The rows of `A` at a place, of length one where each coordinate is measured by its own inertia,

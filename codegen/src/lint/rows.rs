@@ -56,14 +56,14 @@ pub fn warn_of_flat(numbers: &Numbers, flat: &BTreeSet<usize>, found: &mut Diagn
 
 /// Warns of equations that follow from others.
 pub fn warn_of_redundant(numbers: &Numbers, flat: &BTreeSet<usize>, found: &mut Diagnostics) {
-    let samples = numbers.samples();
-    if samples.len() < ENOUGH {
+    let samples = numbers.samples().iter();
+    let mut judged: Vec<_> = samples.map(|place| dependent(numbers, place)).collect();
+    if judged.len() < ENOUGH || judged.iter().any(Vec::is_empty) {
         return;
     }
     // Random positions may all come to lie on a branch of which the motion knows nothing.
     let start = numbers.assembled();
-    let places = samples.iter().chain(&start);
-    let judged: Vec<_> = places.map(|place| dependent(numbers, place)).collect();
+    judged.extend(start.map(|place| dependent(numbers, &place)));
     let Some((first, others)) = judged.split_first() else {
         return;
     };

@@ -142,7 +142,8 @@ impl<T: Real> Sheet<'_, T> {
             let off = self.reduced_change(cross.along, cross.time) / best.slope;
             unsure = (ahead * off * best.slope).abs();
             // Where interpolation is not exact the other constraints do not hold, either.
-            let corrected = self.correct(onto);
+            self.correct(onto);
+            let corrected = self.chart.length(self.solution);
             // Directions are not exact, so that the squares of what is left count, too.
             let left = (ahead * step).abs() + off.abs() * length + corrected;
             found = left * left * (best.slope / step).abs() <= cross.round_off;

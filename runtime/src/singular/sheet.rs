@@ -136,7 +136,7 @@ pub(super) struct Sheet<'a, T> {
     pub(super) kind: Kind<'a, T>,
     /// A right-hand side in the order and scale of the frame's rows, and a solution.
     right: &'a mut [T],
-    solution: &'a mut [T],
+    pub(super) solution: &'a mut [T],
 }
 
 impl<'a, T: Real> Sheet<'a, T> {
@@ -282,15 +282,13 @@ impl<'a, T: Real> Sheet<'a, T> {
         Ok(())
     }
 
-    /// Corrects a position whose frame is at hand in the rows that are safely independent; the
-    /// length of the correction.
-    pub(super) fn correct(&mut self, q: &mut [T]) -> T {
+    /// Corrects a position whose frame is at hand in the rows that are safely independent.
+    pub(super) fn correct(&mut self, q: &mut [T]) {
         let chart = &self.chart;
         let right = chart.right(-T::one(), self.equations.constraints().residual);
         let scales = chart.column_scale;
         self.frame.solve_independent(right, scales, self.solution);
         add_scaled(q, T::one(), self.solution);
-        chart.length(self.solution)
     }
 
     /// The largest of the constraints that is left when the rows before the near-dependent

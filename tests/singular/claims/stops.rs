@@ -115,8 +115,15 @@ fn a_run_of_fixed_steps_ends_where_a_constraint_has_a_kink() {
     let mechanism: &dyn Whole<f64, 5, 2> = &mechanism;
     let start = assemble(mechanism, &mechanism.start(), 0.0).expect("it can be assembled");
     let arrival = (4.0_f64 / 9.81).sqrt();
-    for method in [Method::Rk4, Method::Dop853, Method::Radau5, Method::Radau9] {
-        for step in [1e-2, 4e-3, 1.7e-3, 3e-4] {
+    let methods = [
+        Method::Rk4,
+        Method::Dop853,
+        Method::Dp5,
+        Method::Radau5,
+        Method::Radau9,
+    ];
+    for method in methods {
+        for step in [0.05, 0.02, 1e-2, 4e-3, 1.7e-3, 1e-3, 3e-4] {
             let options = Options {
                 method,
                 ..Options::rk4(1.0, step)
@@ -125,7 +132,7 @@ fn a_run_of_fixed_steps_ends_where_a_constraint_has_a_kink() {
             let failure = simulate(mechanism, &start, &options, &mut []).expect_err(&name);
             let end = failure.summary.end;
             let too_early = arrival - end.t;
-            assert!((0.0..1.1 * step).contains(&too_early), "{name}: {}", end.t);
+            assert!((0.0..1.01 * step).contains(&too_early), "{name}: {}", end.t);
             let off = end.v[1] - 9.81 / 2.0 * end.t;
             assert!(off.abs() < 1e-9, "{name}: {off:e}");
         }
