@@ -6,9 +6,12 @@ use super::numbers::{Numbers, Place};
 use crate::diagnostic::{Diagnostic, Diagnostics, Span};
 use std::collections::BTreeSet;
 
-/// Derivatives that shrink below this on the way to where the equation holds vanish
+/// Derivatives that shrink below this on the way to where the equation holds may vanish
 /// there: an error of 1e-16 at a double zero leaves a slope of 1e-8.
 const VANISHED: f64 = 1e-4;
+/// They do if this part of what the equation would be at their zero is no more than its error and
+/// round-off: next to a double zero `e` the slope is `√(2·e·curvature)`.
+const IS_ZERO: f64 = 0.25;
 /// A coefficient below this is round-off.
 const TAKES_PART: f64 = 1e-5;
 /// What is true at this many random positions is taken to be true.
@@ -35,8 +38,15 @@ fn flattens(numbers: &Numbers, row: usize, start: &Place) -> Option<bool> {
     let all: Vec<usize> = (0..start.q.len()).collect();
     let slope = |place: &Place| norm(&numbers.values_and_jacobian(&[row], &all, place).1[0]);
     let end = numbers.assemble(&[row], &all, start)?;
-    let holds = numbers.errors(&[row], &end).1;
-    holds.then(|| slope(&end) <= VANISHED * slope(start))
+    let (errors, holds) = numbers.errors(&[row], &end);
+    let (before, after) = (slope(start), slope(&end));
+    let moved: Vec<f64> = start.q.iter().zip(&end.q).map(|(a, b)| a - b).collect();
+    // The equation at the zero of its derivatives, if it is quadratic: where a distance is far
+    // smaller than the coordinates, its square has small derivatives, too.
+    let extremum = after * after * norm(&moved) / (2.0 * before);
+    let round_off = f64::EPSILON * before * norm(&start.q).max(1.0);
+    let is_double = IS_ZERO * extremum <= errors[0].abs() + round_off;
+    holds.then(|| after <= VANISHED * before && is_double)
 }
 
 /// Warns of equations whose derivatives vanish where they hold.

@@ -97,7 +97,14 @@ fn an_equation_whose_derivatives_vanish_where_it_holds_is_named() {
             &["derivatives of", flat, "vanish"],
         );
     }
-    for fine in ["sin(phi) = x", "x^2 + y^2 = 1", "x*y = 1/2", "x^3 + x = y"] {
+    let near = "(x - y)^2 = 1e-10";
+    for fine in [
+        "sin(phi) = x",
+        "x^2 + y^2 = 1",
+        "x*y = 1/2",
+        "x^3 + x = y",
+        near,
+    ] {
         is_silent(&format!("constraint {fine}; start {{ x ~ 0.6; y ~ 0.8; }}"));
     }
 }

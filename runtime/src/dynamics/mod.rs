@@ -17,6 +17,7 @@ mod constrained;
 mod coordinate_scale;
 mod emitted;
 mod erased;
+mod extremum;
 mod follow;
 mod full;
 mod independent;

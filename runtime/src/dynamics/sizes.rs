@@ -10,6 +10,7 @@
 //! for those that nearly vanish at the first state, and wherever else they are looked at do not.
 
 use super::erased::Constrained;
+use super::extremum::is_near_extremum;
 use super::rows::RowsView;
 use super::singular_values::lift;
 use super::{Core, Source};
@@ -34,7 +35,7 @@ const STRIDES: [f64; 2] = [0.618_033_988_749_894_9, 0.414_213_562_373_095];
 const UNUSUAL: f64 = 4.0;
 
 /// A row nearly vanishes at the first state if it is smaller there, by this factor, than wherever
-/// lengths are moved.
+/// lengths are moved, unless it is near an extremum.
 const VANISHING: f64 = 1e-3;
 
 /// Kinds of coordinates.
@@ -241,9 +242,11 @@ pub(super) fn sample_sizes<T: Real>(
         let vanishes = |row: &usize| here.alone[*row] < least[*row] * bound;
         if (0..r).any(|row| vanishes(&row)) {
             samples.sample(solver, state, ANY, workspace);
-            (0..r)
-                .filter(vanishes)
-                .for_each(|row| samples.observe(solver, row));
+            for row in (0..r).filter(vanishes) {
+                if !workspace.scope(|inner| is_near_extremum(solver, state, row, inner)) {
+                    samples.observe(solver, row);
+                }
+            }
         }
     }
 }

@@ -1,6 +1,7 @@
-//! Descriptions of one mechanism in other units are the same mechanism.
+//! Descriptions of one mechanism in other units, or at another place, are the same mechanism.
 
 use bricard_runtime::{Options, State, StepControl, Whole, assemble, simulate};
+use bricard_singular::descriptions::far_circle::FarCircle;
 use bricard_singular::descriptions::unitless::Unitless;
 
 /// Where it is after some passages, in lengths of its links, and how many those were.
@@ -33,6 +34,33 @@ fn lengths_without_a_unit_may_be_of_any_size() {
         for (found, wanted) in found.into_iter().zip(wanted) {
             let error = (found - wanted).abs();
             assert!(error < 1e-6, "length {l:e}: {found} instead of {wanted}");
+        }
+    }
+}
+
+/// A bead on a circle of a metre, whose centre is so far from the origin, after four seconds and
+/// relative to the centre.
+fn bead(far: f64) -> [f64; 2] {
+    let mut mechanism = FarCircle::<f64>::default();
+    mechanism.parameters.far = far;
+    let mechanism: &dyn Whole<f64, 2, 1> = &mechanism;
+    let start: State<f64, 2> = assemble(mechanism, &mechanism.start(), 0.0)
+        .unwrap_or_else(|failure| panic!("{far:e} m off: {failure}"));
+    let ran = simulate(mechanism, &start, &Options::dop853(4.0, 1e-12), &mut []);
+    let summary = ran.unwrap_or_else(|failure| panic!("{far:e} m off: {failure}"));
+    assert_eq!(summary.counters.beside_accelerations, 0, "{far:e} m off");
+    [summary.end.q[0] - far, summary.end.q[1]]
+}
+
+#[test]
+fn a_small_circle_may_be_far_from_the_origin() {
+    let wanted = bead(0.0);
+    for far in [1e2, 3e3, 1e4, 1e5, 1e6] {
+        let found = bead(far);
+        for (found, wanted) in found.into_iter().zip(wanted) {
+            let error = (found - wanted).abs();
+            let bound = 1e-9 + 1e3 * f64::EPSILON * far;
+            assert!(error < bound, "{far:e} m off: {found} instead of {wanted}");
         }
     }
 }
