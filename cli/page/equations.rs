@@ -58,7 +58,18 @@ fn formula([entry, value]: &[String; 2]) -> Option<String> {
 #[cfg(test)]
 mod tests {
     use super::{formula, mathml};
+    use roxmltree::Document;
     use std::path::Path;
+
+    /// Elements of MathML that take a certain number of others.
+    const CHILDREN: [(&str, usize); 6] = [
+        ("msup", 2),
+        ("msub", 2),
+        ("msubsup", 3),
+        ("mfrac", 2),
+        ("mover", 2),
+        ("munder", 2),
+    ];
 
     #[test]
     fn formulas_of_the_library_are_mathml() {
@@ -79,6 +90,27 @@ mod tests {
                     line.starts_with("<math") && !line.contains("merror"),
                     "{line}"
                 );
+            }
+        }
+    }
+
+    #[test]
+    fn elements_of_mathml_have_as_many_others_as_they_take() {
+        for name in bricard::NAMES {
+            let description = bricard::source(name).map(|source| (Path::new(name), source));
+            let arrays = mathml(description);
+            let lines = arrays.iter().flat_map(|array| array["lines"].as_array());
+            for line in lines.flatten().filter_map(|line| line.as_str()) {
+                let document = Document::parse(line).expect("it is XML");
+                for node in document.descendants() {
+                    let kind = node.tag_name().name();
+                    let wanted = CHILDREN.iter().find(|(known, _)| *known == kind);
+                    let count = node.children().filter(|child| child.is_element()).count();
+                    assert!(
+                        wanted.is_none_or(|(_, wanted)| count == *wanted),
+                        "{name}: `{kind}` has {count} in {line}"
+                    );
+                }
             }
         }
     }

@@ -184,7 +184,14 @@ impl<S: Symbolic> Printer<'_, S> {
             (_, false) => format!("{}^{exponent}", self.within(base, Binding::Atom)),
             (_, true) => match self.graph.node(base) {
                 Node::Function(function @ (Function::Sin | Function::Cos), x) => {
-                    format!("\\{}^{{{exponent}}} {}", function.name(), self.argument(*x))
+                    // In braces, as MathML takes one base and no blank with it; the blank that
+                    // is lost before a name is written.
+                    let argument = self.argument(*x);
+                    let blank = match argument.starts_with("\\left") {
+                        true => " ",
+                        false => "\\,",
+                    };
+                    format!("{{\\{}}}^{{{exponent}}}{blank}{argument}", function.name())
                 }
                 Node::Symbol(symbol) if symbol.has_accent() => {
                     format!("{}^{{{exponent}}}", self.within(base, Binding::Atom))
