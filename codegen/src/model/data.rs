@@ -110,14 +110,21 @@ fn columns(header: Option<&[&str]>, names: &[&str]) -> Result<[usize; 2], Fault>
             let message = format!(" has no row of names, in which `{name}` could be");
             return fault(message, "without names the first two columns are taken");
         };
-        let found = header.iter().position(|known| *known == name);
-        found.ok_or_else(|| Fault {
-            message: format!(" has no column `{name}`"),
-            help: match nearest(name, header.iter().copied()) {
-                Some(near) => did_you_mean(near),
-                None => format!("its columns are {}", header.join(", ")),
-            },
-        })
+        let mut found = (1..).zip(header).filter(|(_, known)| **known == name);
+        match (found.next(), found.next()) {
+            (Some((column, _)), None) => Ok(column - 1),
+            (Some((one, _)), Some((other, _))) => Err(Fault {
+                message: format!(" has `{name}` in its columns {one} and {other}"),
+                help: "give each column a name of its own".to_string(),
+            }),
+            (None, _) => Err(Fault {
+                message: format!(" has no column `{name}`"),
+                help: match nearest(name, header.iter().copied()) {
+                    Some(near) => did_you_mean(near),
+                    None => format!("its columns are {}", header.join(", ")),
+                },
+            }),
+        }
     };
     match names {
         [] => Ok([0, 1]),

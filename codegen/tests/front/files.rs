@@ -52,6 +52,13 @@ fn columns_are_found_by_their_names() {
     let wrong = said("named", data, "table(\"data.csv\", \"forse\", t)");
     assert!(wrong.contains("has no column `forse`"), "{wrong}");
     assert!(wrong.contains("did you mean `force`?"), "{wrong}");
+    let twice = "time,v,force,v\n0,5,1,7\n2,6,3,8\n";
+    let wrong = said("twice", twice, "table(\"data.csv\", \"v\", t)");
+    assert!(wrong.contains("has `v` in its columns 2 and 4"), "{wrong}");
+    assert_eq!(
+        said("other", twice, "table(\"data.csv\", \"force\", t)"),
+        ""
+    );
     let bare = said("bare", "0,1\n1,2\n", "table(\"data.csv\", \"force\", t)");
     assert!(bare.contains("has no row of names"), "{bare}");
 }

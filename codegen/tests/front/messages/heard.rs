@@ -165,6 +165,11 @@ impl Hearing {
                 &b"time,x,forces\n0,1,2\n1,2,3\n"[..],
                 named,
             ),
+            (
+                "`time,force,force` above numbers",
+                &b"time,force,force\n0,1,2\n1,2,3\n"[..],
+                named,
+            ),
             ("`0,1` above `1`", &b"0,1\n1\n"[..], plain),
             ("`0,1` above `1,x`", &b"0,1\n1,x\n"[..], plain),
             ("", &b"0,1\n1,2\n"[..], "table(\"data.csv\", x, t)"),
