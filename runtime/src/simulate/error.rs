@@ -95,7 +95,7 @@ impl<T: Real> Display for SimulateError<T> {
             Self::NoErrorEstimate { method } => write!(
                 f,
                 "the method {method} has no error estimate and can't follow a tolerance; give it \
-                 a fixed step, or take dp5 or dop853"
+                 a fixed step, or take dp5, dop853, radau5 or radau9"
             ),
             Self::BadEnd { start, until } => write!(
                 f,

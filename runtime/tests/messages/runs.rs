@@ -406,7 +406,7 @@ pub const STEPS: &[Case] = &[
         "`rk4` with a tolerance",
         || refused(Point::on(line), adaptive(Method::Rk4, 1e-6)),
         "the method rk4 has no error estimate and can't follow a tolerance; give it a fixed \
-         step, or take dp5 or dop853",
+         step, or take dp5, dop853, radau5 or radau9",
     ),
     (
         "SimulateError::BadEnd",
