@@ -3,6 +3,7 @@
 //! In:  a path, and what the system says.
 //! Out: a message with what to do.
 
+use crate::place::{folder, place};
 use bricard_codegen::internals::diagnostic::nearest;
 use std::fmt::{self, Formatter};
 use std::fs;
@@ -21,14 +22,19 @@ pub fn unread(f: &mut Formatter<'_>, path: &Path, error: &io::Error) -> fmt::Res
 /// A file or folder that could not be written.
 pub fn unwritten(f: &mut Formatter<'_>, path: &Path, error: &io::Error) -> fmt::Result {
     write!(f, "could not write {}: ", path.display())?;
-    match path.parent() {
-        Some(folder) if error.kind() == io::ErrorKind::NotFound && !folder.exists() => write!(
-            f,
-            "there is no folder {}; make it, or name another file",
-            folder.display()
-        ),
-        _ => write!(f, "{error}{}", remedy(error)),
+    let place = place(path);
+    let folder = folder(&place);
+    if error.kind() != io::ErrorKind::NotFound || folder.exists() {
+        return write!(f, "{error}{}", remedy(error));
     }
+    if path.is_symlink() {
+        write!(f, "it is a link to {}, and ", place.display())?;
+    }
+    write!(
+        f,
+        "there is no folder {}; make it, or name another file",
+        folder.display()
+    )
 }
 
 /// What to do where something else has a name, or may not be touched.
@@ -50,13 +56,7 @@ fn similar(path: &Path) -> Option<PathBuf> {
     if path.extension().is_none() && description.is_file() {
         return Some(description);
     }
-    let folder = path.parent()?;
-    let here = if folder == Path::new("") {
-        Path::new(".")
-    } else {
-        folder
-    };
-    let names = fs::read_dir(here)
+    let names = fs::read_dir(folder(path))
         .ok()?
         .flatten()
         .map(|entry| entry.file_name());
@@ -66,7 +66,7 @@ fn similar(path: &Path) -> Option<PathBuf> {
         .collect();
     let name = path.file_name()?.to_str()?;
     let meant = nearest(name, names.iter().map(String::as_str))?;
-    Some(folder.join(meant))
+    Some(path.with_file_name(meant))
 }
 
 /// A name where a file belongs.
@@ -135,12 +135,15 @@ pub fn read_here(f: &mut Formatter<'_>, option: &str, path: &Path) -> fmt::Resul
 
 /// A folder that is not fit to keep what is compiled.
 pub fn cache(f: &mut Formatter<'_>, path: &Path, error: &io::Error) -> fmt::Result {
-    let path = path.display();
     write!(
         f,
-        "could not keep what was compiled in {path}: {error}; make room there (`bricard cache \
-         --clear` does), or name another folder with XDG_CACHE_HOME"
-    )
+        "could not keep what was compiled in {}: {error}; ",
+        path.display()
+    )?;
+    if let io::ErrorKind::StorageFull | io::ErrorKind::QuotaExceeded = error.kind() {
+        f.write_str("make room there (`bricard cache --clear` does), or ")?;
+    }
+    f.write_str("name another folder with XDG_CACHE_HOME")
 }
 
 /// A folder that doesn't hold the crates to depend on.

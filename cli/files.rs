@@ -7,7 +7,7 @@
 use crate::compiled::files_of;
 use crate::error::CommandError;
 use crate::mechanism::file;
-use std::fs;
+use crate::place::place;
 use std::path::{Path, PathBuf};
 
 /// Refuses a file that two options want to write, or that the description is in or reads.
@@ -55,17 +55,4 @@ pub fn refuse<T>(path: &Path, instead: &'static str) -> Result<T, CommandError> 
         path: path.to_path_buf(),
         instead,
     })
-}
-
-/// The folder that a file is in.
-pub fn folder(file: &Path) -> &Path {
-    let folder = file.parent().filter(|folder| *folder != Path::new(""));
-    folder.unwrap_or(Path::new("."))
-}
-
-/// Where a file is, whatever links and folders lead to it, or where it would be.
-fn place(path: &Path) -> PathBuf {
-    let new = || Some(fs::canonicalize(folder(path)).ok()?.join(path.file_name()?));
-    let there = fs::canonicalize(path).ok().or_else(new);
-    there.unwrap_or_else(|| path.to_path_buf())
 }

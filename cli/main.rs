@@ -38,6 +38,7 @@ mod page;
 #[cfg_attr(not(feature = "parquet"), path = "without_parquet.rs")]
 mod parquet;
 mod passage;
+mod place;
 mod plot;
 mod progress;
 mod raster;

@@ -5,6 +5,7 @@
 
 use crate::error::CommandError;
 use crate::mistakes::each;
+use crate::place::place;
 use anstyle::AnsiColor;
 use std::ffi::OsStr;
 use std::fs::{self, File};
@@ -81,7 +82,7 @@ pub fn write(path: &Path, text: &str) -> Result<(), CommandError> {
 pub fn replace(path: &Path, bytes: &[u8]) -> Result<(), CommandError> {
     let failed = |error| CommandError::write(path, error);
     // A link stays one.
-    let place = fs::canonicalize(path).unwrap_or_else(|_| path.to_path_buf());
+    let place = place(path);
     if place.exists() && !place.is_file() {
         return fs::write(&place, bytes).map_err(failed);
     }
@@ -108,16 +109,24 @@ fn beside(path: &Path) -> PathBuf {
 /// [`CommandError::Write`].
 pub fn probe(path: &Path) -> Result<(), CommandError> {
     let failed = |error| CommandError::write(path, error);
-    let is_new = !path.exists();
+    // What is removed again is the file, not a link that leads to it.
+    let place = place(path);
+    let there = fs::metadata(&place).ok();
+    // Whoever reads a pipe takes it for ended when it is closed.
+    if there
+        .as_ref()
+        .is_some_and(|there| !there.is_file() && !there.is_dir())
+    {
+        return Ok(());
+    }
     File::options()
         .append(true)
         .create(true)
-        .open(path)
+        .open(&place)
         .map_err(failed)?;
-    if is_new {
-        fs::remove_file(path).map_err(failed)
-    } else {
-        Ok(())
+    match there {
+        Some(_) => Ok(()),
+        None => fs::remove_file(&place).map_err(failed),
     }
 }
 

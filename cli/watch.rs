@@ -6,11 +6,11 @@
 use crate::arguments::Simulate;
 use crate::compiled::{identity, quoted};
 use crate::error::CommandError;
-use crate::files::folder;
 use crate::interrupt;
 use crate::mechanism::file;
 use crate::output::{complain, say};
 use crate::page::{Live, is_page};
+use crate::place::folder;
 use crate::simulate::{only_one, simulate_for};
 use notify::{Event, RecommendedWatcher, RecursiveMode, Watcher, recommended_watcher};
 use std::fs;

@@ -1,7 +1,8 @@
 //! The kinds of file that a run writes.
 
-use crate::command::{bricard, folder, words};
+use crate::command::{bricard, check_refused, command, end, folder, start, wait_until, words};
 use std::fs;
+use std::path::Path;
 
 /// Simulates the slider-crank for a second into a file of a folder of its own; the file's
 /// bytes.
@@ -111,4 +112,47 @@ fn shells_and_the_manual_know_the_commands() {
     bricard(&["man", &folder.to_string_lossy()]).done();
     let page = fs::read_to_string(folder.join("bricard-simulate.1")).expect("a page");
     assert!(page.contains("stabilisation"));
+}
+
+#[cfg(unix)]
+#[test]
+fn rows_go_where_a_link_leads_also_to_a_file_that_is_not_there_yet() {
+    use std::os::unix::fs::symlink;
+    let folder = folder("links");
+    let [rows, link, lost] = ["data.csv", "run.csv", "lost.csv"].map(|name| folder.join(name));
+    symlink("data.csv", &link).expect("the folder is ours");
+    symlink("nowhere/x.csv", &lost).expect("the folder is ours");
+    let run = words("simulate slider_crank --until 1 --quiet --out");
+    let to = |path: &Path| [&run[..], &[&*path.to_string_lossy()]].concat().join(" ");
+    for _ in 0..2 {
+        bricard(&words(&to(&link))).done();
+        assert!(link.is_symlink() && !rows.is_symlink());
+        let text = fs::read_to_string(&rows).expect("rows");
+        assert!(text.starts_with("t,q1,") && text.lines().count() > 5);
+    }
+    let said = ["it is a link to ", "nowhere/x.csv, and there is no folder "];
+    check_refused(&words(&to(&lost)), 1, &said);
+    assert!(lost.is_symlink());
+}
+
+#[cfg(unix)]
+#[test]
+fn rows_go_through_a_pipe_that_has_a_name() {
+    use std::process::Command;
+    let folder = folder("pipes");
+    let pipe = folder.join("pipe");
+    let made = Command::new("mkfifo").arg(&pipe).status();
+    assert!(made.is_ok_and(|status| status.success()));
+    let reader = start(Command::new("cat").arg(&pipe));
+    let run = words("simulate slider_crank --until 1 --quiet --out");
+    let mut running = start(command().args(run).arg(&pipe));
+    wait_until("the end of the rows", || {
+        running.try_wait().is_ok_and(|status| status.is_some())
+    });
+    assert_eq!(end(running).status, Some(0));
+    let rows = end(reader).out;
+    assert!(
+        rows.starts_with("t,q1,") && rows.lines().count() > 5,
+        "{rows}"
+    );
 }

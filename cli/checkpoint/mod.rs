@@ -17,6 +17,7 @@ pub use text::{Checkpoint, Rows};
 
 use crate::description;
 use crate::error::CommandError;
+use crate::place::place;
 use bricard_runtime::Structure;
 use std::fs::{self, File};
 use std::io::{self, Write};
@@ -83,7 +84,7 @@ impl<'a> CheckpointWriter<'a> {
     pub fn write(&mut self) -> Result<(), CommandError> {
         if let (Some(file), Some(checkpoint)) = (&self.checkpoints.file, &self.last) {
             let text = checkpoint.text(&self.checkpoints.run);
-            replace(file, &text).map_err(|error| CommandError::write(file, error))?;
+            replace(&place(file), &text).map_err(|error| CommandError::write(file, error))?;
         }
         self.written = Instant::now();
         Ok(())

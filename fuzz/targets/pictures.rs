@@ -11,6 +11,8 @@ mod file_error;
 mod interrupt;
 #[path = "../../cli/number.rs"]
 mod number;
+#[path = "../../cli/place.rs"]
+mod place;
 #[path = "../../cli/plot/mod.rs"]
 mod plot;
 

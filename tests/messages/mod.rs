@@ -18,9 +18,8 @@ use std::path::Path;
 use std::process::Command;
 
 /// What is said where a folder is not fit to keep what is compiled.
-const SPOILT: &str = "could not keep what was compiled in …CACHEDIR.TAG: …; make room there \
-                      (`bricard cache --clear` does), or name another folder with \
-                      XDG_CACHE_HOME";
+const SPOILT: &str = "could not keep what was compiled in …CACHEDIR.TAG: …; name another \
+                      folder with XDG_CACHE_HOME";
 
 const INTRODUCTION: &str = "\
 The command ends with status 2 where the command line is wrong, and with 1 where something \
