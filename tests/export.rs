@@ -219,6 +219,92 @@ fn a_folder_for_c_holds_libraries_and_an_example_that_moves_as_the_command_does(
     assert!(Path::new(library.out.trim()).is_file(), "{}", library.out);
 }
 
+/// The files below a folder that have an ending, sorted.
+fn files_of(folder: &Path, ending: &str) -> Vec<PathBuf> {
+    let mut files = Vec::new();
+    for entry in fs::read_dir(folder).expect("a folder") {
+        let path = entry.expect("an entry").path();
+        match path.is_dir() {
+            true => files.extend(files_of(&path, ending)),
+            false => files.extend(Some(path)),
+        }
+    }
+    files.retain(|path| path.to_string_lossy().ends_with(ending));
+    files.sort();
+    files
+}
+
+#[test]
+fn a_folder_holds_one_export_and_what_others_have_put_there() {
+    let folder = folder("export_twice");
+    for name in ["one", "two"] {
+        let text = include_str!("embedding/motor.mech");
+        fs::write(folder.join(format!("{name}.mech")), text).expect("the folder is ours");
+    }
+    let made = folder.join("made");
+    let export = |name: &str, to| {
+        let arguments = ["export", name, "--to", to, "--out", "made"];
+        bricard(&folder, &arguments).done();
+        files_of(&made, "")
+    };
+    let first = export("two.mech", "c");
+    fs::remove_dir_all(&made).expect("the folder is ours");
+    export("one.mech", "rust");
+    let [notes, own] = ["notes.txt", "examples/own.rs"].map(|name| made.join(name));
+    fs::write(&notes, "mine").expect("the folder is ours");
+    assert_eq!(export("two.mech", "c").len(), first.len() + 1);
+    export("one.mech", "rust");
+    fs::write(&own, "mine").expect("the folder is ours");
+    let mut others: Vec<PathBuf> = export("two.mech", "c");
+    others.retain(|path| !first.contains(path));
+    assert_eq!(others, [own, notes]);
+    // A description that was exported can be exported again from where it is.
+    bricard(
+        &folder,
+        &["export", "made/two.mech", "--to", "c", "--out", "made"],
+    )
+    .done();
+    assert_eq!(files_of(&made, ".mech"), [made.join("two.mech")]);
+}
+
+#[test]
+fn an_fmu_replaces_no_file_but_one_of_its_kind() {
+    let folder = folder("export_fmu_twice");
+    let fmu = folder.join("motor.fmu");
+    let export = ["export", motor(&folder), "--to", "fmi2"];
+    fs::write(&fmu, "mine").expect("the folder is ours");
+    let ran = bricard(&folder, &export);
+    assert_eq!(ran.status, Some(1));
+    ran.says(&["motor.fmu is there already", "choose another name"]);
+    assert_eq!(fs::read(&fmu).ok().as_deref(), Some(&b"mine"[..]));
+    fs::remove_file(&fmu).expect("the folder is ours");
+    for _ in 0..2 {
+        bricard(&folder, &export).done();
+    }
+}
+
+#[test]
+fn an_exported_description_finds_the_files_that_it_reads() {
+    let folder = folder("export_tables");
+    let text = "mechanism Told { const m: kg = 2; coord x: m; kinetic 1/2*m*der(x)^2;
+        force table(\"data/told.csv\", t) on x; }";
+    fs::create_dir(folder.join("data")).expect("the folder is ours");
+    fs::write(folder.join("told.mech"), text).expect("the folder is ours");
+    fs::write(folder.join("data/told.csv"), "0,0\n1,2\n").expect("the folder is ours");
+    for to in ["rust", "c"] {
+        bricard(&folder, &["export", "told.mech", "--to", to, "--out", to]).done();
+        let file = format!("{to}/told.mech");
+        bricard(&folder, &["check", &file]).done();
+        bricard(&folder, &["export", &file, "--to", to, "--out", to]).done();
+    }
+    bricard(&folder, &["export", "told.mech", "--to", "fmi3"]).done();
+    let fmu = fs::read(folder.join("told.fmu")).expect("an FMU");
+    let fmu = String::from_utf8_lossy(&fmu);
+    for name in ["sources/told.mech", "sources/data/told.csv"] {
+        assert!(fmu.contains(name), "{name}");
+    }
+}
+
 #[test]
 fn what_can_not_be_exported_is_refused_and_nothing_is_touched() {
     let folder = folder("export_refused");

@@ -30,12 +30,12 @@ pub fn export(subject: &Description, out: Option<&Path>) -> Result<(), CommandEr
     let compiled = generate(&subject.file, &subject.source, true)?;
     vacant(&path)?;
     let built = library(&subject.file, &subject.source)?;
+    // It may be in the folder itself.
+    let described = sources::described(&module, subject, &compiled)?;
     let folder = Folder::new(&path)?;
     let called = Library::called(&module);
-    for (name, text) in library_sources(&module, &compiled) {
-        folder.write(&name, &text)?;
-    }
-    folder.write(&format!("{module}.mech"), &subject.source)?;
+    folder.write_all(library_sources(&module, &compiled))?;
+    folder.write_all(described)?;
     folder.write(".gitignore", "/target\n")?;
     folder.write("include/bricard.h", HEADER)?;
     folder.write(&format!("include/{module}.h"), &compiled.c_header)?;

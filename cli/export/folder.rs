@@ -4,10 +4,12 @@
 //! Out: files.
 
 use crate::error::CommandError;
-use std::fs;
-use std::path::{Path, PathBuf};
+use std::fs::{self, File};
+use std::io::Write;
+use std::path::{Component, Path, PathBuf};
 
-/// The file by which a folder that was exported is known.
+/// The file by which a folder that was exported is known. Its lines, but the first, are the
+/// files that were written.
 const MARK: &str = ".bricard-export";
 
 /// Refuses a folder in which there is something that was not exported.
@@ -27,7 +29,8 @@ pub fn vacant(path: &Path) -> Result<(), CommandError> {
 pub struct Folder(PathBuf);
 
 impl Folder {
-    /// Makes a folder, or takes one that is empty or was exported before.
+    /// Makes a folder, or takes one that is empty or was exported before, without the files of
+    /// that export.
     ///
     /// # Errors
     ///
@@ -35,12 +38,37 @@ impl Folder {
     pub fn new(path: &Path) -> Result<Self, CommandError> {
         vacant(path)?;
         let folder = Self(path.to_path_buf());
+        folder.empty()?;
         let said = format!(
-            "Written by `bricard export` {}, which may replace what is here.\n",
+            "Written by `bricard export` {}, which may replace what is here:\n",
             env!("CARGO_PKG_VERSION")
         );
-        folder.write(MARK, &said)?;
+        let mark = path.join(MARK);
+        fs::create_dir_all(path)
+            .and_then(|()| fs::write(&mark, said))
+            .map_err(|error| CommandError::write(&mark, error))?;
         Ok(folder)
+    }
+
+    /// Removes the files of the earlier export: mixed with those of another they would be no
+    /// crate. What somebody else has put there stays.
+    fn empty(&self) -> Result<(), CommandError> {
+        let written = fs::read_to_string(self.0.join(MARK)).unwrap_or_default();
+        let inside = |name: &&Path| {
+            let mut parts = name.components();
+            parts.all(|part| matches!(part, Component::Normal(_)))
+        };
+        for name in written.lines().skip(1).map(Path::new).filter(inside) {
+            let path = self.0.join(name);
+            if path.is_file() {
+                fs::remove_file(&path).map_err(|error| CommandError::write(&path, error))?;
+            }
+            for above in name.ancestors().skip(1) {
+                // One in which there is something else stays.
+                let _stays = fs::remove_dir(self.0.join(above));
+            }
+        }
+        Ok(())
     }
 
     /// Where it is.
@@ -58,6 +86,19 @@ impl Folder {
         fs::write(&path, text).map_err(|error| CommandError::write(&path, error))
     }
 
+    /// Writes files in it: paths with texts.
+    ///
+    /// # Errors
+    ///
+    /// [`CommandError::Write`].
+    pub fn write_all(
+        &self,
+        files: impl IntoIterator<Item = (String, String)>,
+    ) -> Result<(), CommandError> {
+        let mut files = files.into_iter();
+        files.try_for_each(|(name, text)| self.write(&name, &text))
+    }
+
     /// Copies a file into it.
     ///
     /// # Errors
@@ -71,12 +112,17 @@ impl Folder {
             .map_err(|error| CommandError::write(&path, error))
     }
 
-    /// Where a file of it is; the folder above is made.
+    /// Where a file of it is; the folder above is made, and the file is noted.
     fn place(&self, name: &str) -> Result<PathBuf, CommandError> {
         let path = self.0.join(name);
         if let Some(folder) = path.parent() {
             fs::create_dir_all(folder).map_err(|error| CommandError::write(folder, error))?;
         }
+        let mark = self.0.join(MARK);
+        let noted = File::options().append(true).open(&mark);
+        noted
+            .and_then(|mut noted| writeln!(noted, "{name}"))
+            .map_err(|error| CommandError::write(&mark, error))?;
         Ok(path)
     }
 }

@@ -29,6 +29,8 @@ pub fn export(subject: &Description, out: Option<&Path>) -> Result<(), CommandEr
         false => module.clone(),
     };
     let kind = type_name(&compiled.name);
+    // It may be in the folder itself.
+    let described = sources::described(&module, subject, &compiled)?;
     let folder = Folder::new(&out.map_or_else(|| PathBuf::from(&module), Path::to_path_buf))?;
     let about = format!("The mechanism {}, compiled by bricard", compiled.name);
     let library = "doctest = false\n";
@@ -42,7 +44,7 @@ pub fn export(subject: &Description, out: Option<&Path>) -> Result<(), CommandEr
         .replace("MODULE", &module)
         .replace("KIND", &kind);
     folder.write("examples/simulate.rs", &example)?;
-    folder.write(&format!("{module}.mech"), &subject.source)?;
+    folder.write_all(described)?;
     folder.write(".gitignore", "/target\n")?;
     sources::write(&folder, &["runtime"])?;
     print(&format!(

@@ -1,13 +1,16 @@
 //! The sources of bricard that an exported crate is built with, as packages that stand
 //! alone.
 //!
-//! In:  the sources that the command carries.
-//! Out: the same in a folder, manifests without a workspace.
+//! In:  the sources that the command carries; a description.
+//! Out: the same in a folder, manifests without a workspace; the description with the files
+//!      that it reads.
 
 use super::folder::Folder;
 use crate::compiled::sources::SOURCES;
+use crate::description::{Description, read};
 use crate::error::CommandError;
-use std::path::Path;
+use bricard_codegen::Compiled;
+use std::path::{Component, Path};
 
 /// Where they are in an exported crate.
 pub const PLACE: &str = "bricard";
@@ -18,8 +21,36 @@ pub const PLACE: &str = "bricard";
 ///
 /// [`CommandError::Write`].
 pub fn write(folder: &Folder, packages: &[&str]) -> Result<(), CommandError> {
-    let mut files = files(packages);
-    files.try_for_each(|(name, text)| folder.write(&name, &text))
+    folder.write_all(files(packages))
+}
+
+/// A description and the files that it reads in its folder or below, as paths with texts. What
+/// it reads elsewhere has no place beside it.
+///
+/// # Errors
+///
+/// [`CommandError::Read`].
+pub fn described(
+    module: &str,
+    subject: &Description,
+    compiled: &Compiled,
+) -> Result<Vec<(String, String)>, CommandError> {
+    let mut files = vec![(format!("{module}.mech"), subject.source.clone())];
+    let above = subject.file.parent().unwrap_or(Path::new(""));
+    for path in &compiled.files {
+        let name = path.strip_prefix(above).ok().filter(|name| {
+            let mut parts = name.components();
+            parts.all(|part| matches!(part, Component::Normal(_)))
+        });
+        if let Some(name) = name {
+            // Other systems know `/` as well.
+            let name = name.to_string_lossy().replace('\\', "/");
+            files.push((name, read(path)?));
+        }
+    }
+    files.sort();
+    files.dedup();
+    Ok(files)
 }
 
 /// Packages by the names of their folders, as paths with texts.

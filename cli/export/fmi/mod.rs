@@ -15,6 +15,7 @@ pub use version::Version;
 
 use super::archive::{self, Files};
 use super::c::library_sources;
+use super::sources::described;
 use crate::compiled::compiler::{command, output};
 use crate::compiled::{Library, generate, identity, library, module_of};
 use crate::description::{Description, wrong};
@@ -30,13 +31,17 @@ use std::path::{Path, PathBuf};
 
 const HEADER: &str = include_str!("../../../capi/include/bricard.h");
 const INSTANCE: &str = include_str!("instance.c");
+/// The file that describes an FMU, and the words by which it is known as one of this command.
+const DESCRIPTION: &str = "modelDescription.xml";
+const TOOL: &str = "generationTool=\"bricard ";
 
 /// Writes the FMU.
 ///
 /// # Errors
 ///
-/// [`CommandError::Description`], [`CommandError::FileKind`], [`CommandError::Write`], and
-/// what stands in the way of compiling.
+/// [`CommandError::Description`], [`CommandError::FileKind`], [`CommandError::Exists`] if
+/// something else has the name, [`CommandError::Write`], and what stands in the way of
+/// compiling.
 pub fn export(
     subject: &Description,
     version: Version,
@@ -46,6 +51,9 @@ pub fn export(
     let path = out.map_or_else(|| PathBuf::from(format!("{module}.fmu")), Path::to_path_buf);
     if path.extension().is_none_or(|kind| kind != "fmu") {
         return refuse(&path, "an FMU is one file; write `--out NAME.fmu`");
+    }
+    if path.exists() && !archive::holds(&path, DESCRIPTION, TOOL) {
+        return Err(CommandError::Exists(path));
     }
     let files = files(subject, version, &module)?;
     archive::write(&path, &files)?;
@@ -83,12 +91,8 @@ fn files(subject: &Description, version: Version, module: &str) -> Result<Files,
     let (platform, suffix) = (version.platform(), std::env::consts::DLL_SUFFIX);
     let text = |name: String, text: String| (name, text.into_bytes());
     let mut files = vec![
-        text(
-            "modelDescription.xml".to_string(),
-            description(&mechanism, &about),
-        ),
+        text(DESCRIPTION.to_string(), description(&mechanism, &about)),
         (format!("binaries/{platform}/{module}{suffix}"), linked),
-        text(format!("sources/{module}.mech"), source.clone()),
         text(
             "sources/build.sh".to_string(),
             build_script(version, &built, &platform),
@@ -96,6 +100,7 @@ fn files(subject: &Description, version: Version, module: &str) -> Result<Files,
     ];
     let sources = sources
         .into_iter()
+        .chain(described(module, subject, &compiled)?)
         .chain(library_sources(module, &compiled));
     files.extend(sources.map(|(name, content)| text(format!("sources/{name}"), content)));
     Ok(files)

@@ -5,6 +5,7 @@
 //!      an example.
 
 use super::archive::{self, Files};
+use super::sources;
 use crate::compiled::{Library, generate, library, module_of};
 use crate::description::Description;
 use crate::error::CommandError;
@@ -69,12 +70,11 @@ pub fn export(subject: &Description, out: Option<&Path>) -> Result<(), CommandEr
     let mut files: Files = vec![
         (format!("{name}/__init__.py"), own.into_bytes()),
         (format!("{name}/__main__.py"), EXAMPLE.into()),
-        (
-            format!("{name}/{module}.mech"),
-            subject.source.clone().into_bytes(),
-        ),
         (format!("{name}/{shared}"), bytes),
     ];
+    let described = sources::described(&module, subject, &compiled)?;
+    let described = described.into_iter();
+    files.extend(described.map(|(file, text)| (format!("{name}/{file}"), text.into())));
     let carried = PACKAGE.iter();
     files.extend(carried.map(|(file, text)| (format!("{name}/_bricard/{file}"), (*text).into())));
     let tag = format!("py3-none-{}", platform());

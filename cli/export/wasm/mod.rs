@@ -40,9 +40,11 @@ panic = \"abort\"
 pub fn export(subject: &Description, out: Option<&Path>) -> Result<(), CommandError> {
     let module = module_of(&subject.file);
     let compiled = generate(&subject.file, &subject.source, false)?;
+    // It may be in the folder itself.
+    let described = sources::described(&module, subject, &compiled)?;
     let folder = Folder::new(&out.map_or_else(|| PathBuf::from(&module), Path::to_path_buf))?;
     write(&folder, &module, &compiled)?;
-    folder.write(&format!("{module}.mech"), &subject.source)?;
+    folder.write_all(described)?;
     let built = build(folder.path(), &module)?;
     folder.copy(&built, MODULE)?;
     print(&format!(
