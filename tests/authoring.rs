@@ -132,13 +132,14 @@ fn a_file_that_cannot_be_read_is_a_message_as_json() {
 }
 
 /// A new crate, in a folder of one test's own.
-fn new(test: &str) -> PathBuf {
+fn new(test: &str, name: &str) -> PathBuf {
     let folder = folder(test);
-    let (status, said, error) = bricard(&folder, &["new", "my-engine"]);
+    let (status, said, error) = bricard(&folder, &["new", name]);
     assert_eq!(status, Some(0), "{error}");
-    assert!(said.contains("mechanisms/my_engine.mech"), "{said}");
+    let description = format!("mechanisms/{}.mech", name.replace('-', "_"));
+    assert!(said.contains(&description), "{said}");
     assert!(said.contains(env!("CARGO_MANIFEST_DIR")), "{said}");
-    folder.join("my-engine")
+    folder.join(name)
 }
 
 /// Runs the program of a new crate, which has to say what it should and nothing else.
@@ -150,26 +151,45 @@ fn simulates(program: &mut Command) {
     assert!(out.contains("crank") && out.contains("J"), "{out}");
 }
 
-#[test]
-fn the_program_of_a_new_crate_simulates_its_mechanism() {
-    let made = new("program");
-    let description = made.join("mechanisms/my_engine.mech");
+/// Compiles the program of a new crate without cargo, as its build script does.
+fn compiled(made: &Path, module: &str) -> PathBuf {
+    let description = made.join("mechanisms").join(module).with_extension("mech");
     let path = description.to_string_lossy();
-    let (status, _, error) = bricard(&made, &["check", &path]);
+    let (status, _, error) = bricard(made, &["check", &path]);
     assert_eq!((status, &*error), (Some(0), ""));
-    // As the build script does.
-    let builder = bricard_codegen::Builder::new().out_dir(&made);
+    let builder = bricard_codegen::Builder::new().out_dir(made);
     builder.compile(&description).expect("it is in order");
     let main = made.join("src/main.rs");
-    let (status, _, error) = run(built::rustc(&main, &made).env("OUT_DIR", &made));
-    assert_eq!((status, &*error), (Some(0), ""));
-    simulates(&mut Command::new(made.join("main")));
+    let (status, _, error) = run(built::rustc(&main, made).env("OUT_DIR", made));
+    assert_eq!((status, &*error), (Some(0), ""), "{module}");
+    made.join("main")
+}
+
+#[test]
+fn the_program_of_a_new_crate_simulates_its_mechanism() {
+    let made = new("program", "my-engine");
+    simulates(&mut Command::new(compiled(&made, "my_engine")));
+}
+
+/// The names of what the program uses.
+#[test]
+fn a_new_crate_may_be_called_as_what_its_program_uses() {
+    for name in [
+        "recorder",
+        "options",
+        "error",
+        "interface",
+        "simulate",
+        "state",
+    ] {
+        compiled(&new(&format!("called_{name}"), name), name);
+    }
 }
 
 #[test]
 #[ignore = "long: builds a crate with all that it depends on"]
 fn a_new_crate_builds_without_a_network_and_simulates() {
-    simulates(&mut built::run(&new("new")));
+    simulates(&mut built::run(&new("new", "my-engine")));
 }
 
 #[test]
@@ -190,6 +210,7 @@ fn what_is_there_already_and_what_is_no_name_is_refused() {
         "a/b",
         "type",
         "std",
+        "f64",
         "test",
         "a__b",
         "a-",

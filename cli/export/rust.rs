@@ -8,7 +8,7 @@ use super::sources;
 use crate::compiled::{generate, module_of};
 use crate::description::Description;
 use crate::error::CommandError;
-use crate::new::RESERVED;
+use crate::new::is_reserved;
 use crate::output::{print, typed};
 use bricard_codegen::internals::emit::type_name;
 use std::path::{Path, PathBuf};
@@ -24,7 +24,7 @@ const NEIGHBOURS: [&str; 2] = ["nalgebra", "num_traits"];
 pub fn export(subject: &Description, out: Option<&Path>) -> Result<(), CommandError> {
     let module = module_of(&subject.file);
     let compiled = generate(&subject.file, &subject.source, false)?;
-    let name = match RESERVED.contains(&&*module) || NEIGHBOURS.contains(&&*module) {
+    let name = match is_reserved(&module) || NEIGHBOURS.contains(&&*module) {
         true => format!("{module}_mechanism"),
         false => module.clone(),
     };
@@ -64,14 +64,13 @@ fn front(name: &str) -> String {
 
 const EXAMPLE: &str = r#"//! Simulates the mechanism for ten seconds: `cargo run --release --example simulate`.
 
-use CRATE::MODULE::KIND;
 use CRATE::bricard_runtime::{Interface, Mechanism, Options, Recorder, assemble, simulate};
 use std::error::Error;
 
 fn main() -> Result<(), Box<dyn Error>> {
     // Parameters have the values of the description; they are fields of
     // `mechanism.parameters`.
-    let mechanism = KIND::<f64>::default();
+    let mechanism = CRATE::MODULE::KIND::<f64>::default();
 
     // The guesses of `start` are moved until the constraints hold.
     let start = assemble(&mechanism, &mechanism.start(), 0.0)?;

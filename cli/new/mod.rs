@@ -16,20 +16,9 @@ use std::path::{Path, PathBuf};
 use std::{env, fs};
 
 /// Names that Rust or cargo keep for themselves, and those that the program uses.
-pub const RESERVED: [&str; 12] = [
-    "alloc",
-    "bricard_codegen",
-    "bricard_runtime",
-    "build",
-    "core",
-    "deps",
-    "examples",
-    "incremental",
-    "main",
-    "proc_macro",
-    "std",
-    "test",
-];
+const RESERVED: &str = "\
+    alloc bool bricard_codegen bricard_runtime build char core deps examples f32 f64 i128 i16 \
+    i32 i64 i8 incremental isize main proc_macro std str test u128 u16 u32 u64 u8 usize";
 
 /// Writes the crate.
 pub fn new(arguments: &New) -> Result<(), CommandError> {
@@ -78,6 +67,11 @@ fn origin(workspace: Option<&Path>) -> String {
     }
 }
 
+/// Whether a name means something to Rust, to cargo or in the program.
+pub fn is_reserved(name: &str) -> bool {
+    RESERVED.split(' ').any(|known| known == name)
+}
+
 /// The name of the module and of the description's file.
 fn module(name: &str) -> Result<String, CommandError> {
     let refuse = |why| {
@@ -97,7 +91,7 @@ fn module(name: &str) -> Result<String, CommandError> {
     if module.ends_with('_') || module.contains("__") {
         return refuse("`-` and `_` stand alone and between letters");
     }
-    if RESERVED.contains(&module.as_str()) || module_name(&module) != module {
+    if is_reserved(&module) || module_name(&module) != module {
         return refuse("it means something in Rust or to cargo");
     }
     Ok(module)

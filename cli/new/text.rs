@@ -56,7 +56,6 @@ pub fn description(kind: &str) -> String {
 
 const PROGRAM: &str = r#"//! Simulates the mechanism of `mechanisms/MODULE.mech` for ten seconds.
 
-use MODULE::KIND;
 use bricard_runtime::{Interface, Options, Recorder, assemble, simulate};
 use std::error::Error;
 
@@ -65,7 +64,7 @@ bricard_runtime::include_mechanism!("MODULE");
 
 fn main() -> Result<(), Box<dyn Error>> {
     // Parameters have the values of the description; this changes one.
-    let mut mechanism = KIND::<f64>::default();
+    let mut mechanism = MODULE::KIND::<f64>::default();
     mechanism.parameters.spring = 30.0;
 
     // The guesses of `start` are moved until the constraints hold.
