@@ -150,6 +150,39 @@ fn checkpoints_with_fixed_steps_change_no_bit() {
     assert!(one == two);
 }
 
+/// What a finished run has left is enough for a later end, to the same bits.
+#[test]
+fn a_finished_run_can_be_prolonged_to_the_same_bytes() {
+    let folder = folder("prolonged");
+    let [whole, parts, file, other] =
+        ["whole.csv", "parts.csv", "c", "d"].map(|name| folder.join(name));
+    let [file, other] = [file, other].map(|path| path.to_string_lossy().into_owned());
+    let until = |end| {
+        [
+            "furuta_pendulum",
+            "--rtol",
+            "1e-12",
+            "--every",
+            "0.03",
+            "--until",
+            end,
+        ]
+    };
+    bricard(&run(&until("200"), &whole, &["--checkpoint", &other])).done();
+    bricard(&run(&until("100.7"), &parts, &["--checkpoint", &file])).done();
+    bricard(&run(&until("200"), &parts, &["--resume", &file])).done();
+    let [one, two] = [whole, parts].map(|path| fs::read(path).expect("rows"));
+    assert!(one == two, "the bytes differ");
+    let short = ["slider_crank", "--until", "0.5"];
+    let ran = bricard(&run(
+        &short,
+        &folder.join("short.csv"),
+        &["--checkpoint", &file],
+    ))
+    .done();
+    ran.says(&["no checkpoint was written"]);
+}
+
 #[test]
 fn equal_commands_give_equal_bytes() {
     let arguments = words("simulate double_four_bar --until 8 --columns energy,reactions");
@@ -165,7 +198,7 @@ fn checkpoints_of_other_runs_are_refused() {
     let path = file.to_string_lossy().into_owned();
     let go_on = ["simulate", "pantograph", "--resume", &path];
     check_refused(&go_on, 1, &["could not read", "c:"]);
-    for text in ["", "rows", "{}", "[1,2]"] {
+    for text in [&b""[..], b"rows", b"{}", b"[1,2]", b"\xff\xfe"] {
         fs::write(&file, text).expect("a file can be written");
         check_refused(&go_on, 2, &["can't go on from", "no checkpoint"]);
     }

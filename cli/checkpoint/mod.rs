@@ -15,8 +15,8 @@ mod text;
 
 pub use text::{Checkpoint, Rows};
 
-use crate::description;
 use crate::error::CommandError;
+use crate::output::say;
 use crate::place::place;
 use bricard_runtime::Structure;
 use std::fs::{self, File};
@@ -24,6 +24,8 @@ use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
+/// What is said of a run that was too short.
+pub const NONE: &str = "no checkpoint was written: the first is due after some thousand steps";
 /// How often the file is written while the run goes on.
 const PERIOD: Duration = Duration::from_secs(5);
 
@@ -47,12 +49,12 @@ pub struct CheckpointWriter<'a> {
 }
 
 impl<'a> CheckpointWriter<'a> {
-    /// Nothing written yet.
+    /// Nothing written yet; the last checkpoint is what the run begins with, if it does.
     pub fn new(checkpoints: &'a Checkpoints) -> Self {
         Self {
             checkpoints,
             written: Instant::now(),
-            last: None,
+            last: checkpoints.from.clone(),
         }
     }
 
@@ -71,9 +73,21 @@ impl<'a> CheckpointWriter<'a> {
 
     /// Whether the file holds a checkpoint that this run has written, or may have begun with.
     pub fn can_be_resumed(&self) -> bool {
-        let Checkpoints { file, from, .. } = self.checkpoints;
-        let is_known = self.last.is_some() || from.is_some();
-        is_known && file.as_ref().is_some_and(|file| file.exists())
+        let file = self.checkpoints.file.as_ref();
+        self.last.is_some() && file.is_some_and(|file| file.exists())
+    }
+
+    /// Writes the last checkpoint before the end of the run, from which it can go further to
+    /// the same bits: the step that ends at its end is none of a longer run.
+    ///
+    /// # Errors
+    ///
+    /// [`CommandError::Write`].
+    pub fn end(&mut self) -> Result<(), CommandError> {
+        if self.checkpoints.file.is_some() && self.last.is_none() {
+            say(NONE);
+        }
+        self.write()
     }
 
     /// Writes the last checkpoint that was taken.
@@ -91,8 +105,12 @@ impl<'a> CheckpointWriter<'a> {
     }
 }
 
-/// Replaces a file as a whole: whoever reads it sees the old text or the new one.
+/// Replaces a file as a whole: whoever reads it sees the old text or the new one. What is no
+/// file, such as a pipe, is written to.
 fn replace(path: &Path, text: &str) -> io::Result<()> {
+    if path.exists() && !path.is_file() {
+        return fs::write(path, text);
+    }
     let mut beside = path.as_os_str().to_owned();
     beside.push(".new");
     let written = File::create(&beside).and_then(|mut file| {
@@ -117,11 +135,13 @@ fn replace(path: &Path, text: &str) -> io::Result<()> {
 pub fn read(path: &Path, run: &str, structure: &Structure) -> Result<Checkpoint, CommandError> {
     if !path.exists() {
         let hint = "there is no such file; a run writes its first checkpoint after some thousand \
-                    steps, when it has taken five seconds or is interrupted";
+                    steps, when it has taken five seconds, ends or is interrupted";
         let error = io::Error::new(io::ErrorKind::NotFound, hint);
         return Err(CommandError::Read(path.to_path_buf(), error));
     }
-    let text = description::read(path)?;
+    let bytes = fs::read(path).map_err(|error| CommandError::Read(path.to_path_buf(), error))?;
+    // What is no text is no checkpoint either.
+    let text = String::from_utf8_lossy(&bytes);
     Checkpoint::read(&text, run, structure).map_err(|reason| CommandError::Checkpoint {
         path: path.to_path_buf(),
         reason: reason.to_string(),

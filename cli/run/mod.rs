@@ -63,26 +63,27 @@ pub fn run(
                 error: CommandError::run(with_guess(text)),
                 time: None,
                 report: None,
-                resumable: writer
-                    .as_ref()
-                    .is_some_and(CheckpointWriter::can_be_resumed),
+                resumable: resumable(&writer),
             })?;
         report.add(&reached, structure);
         let time = reached.state.first().copied();
         let stopped = reached.error.clone().map(CommandError::run);
         let mut error = stopped.or_else(|| watcher.refused.take());
         if error.is_none() {
-            let more = segment.short && time < Some(plan.options.until);
-            let Some(writer) = writer.as_mut().filter(|_| more) else {
+            let Some(writer) = &mut writer else {
                 return Ok(report);
             };
-            let checkpoint = checkpoint(reached, &report, watcher.sink);
-            match checkpoint {
-                Ok(checkpoint) => {
+            let more = time < Some(plan.options.until);
+            match more.then(|| checkpoint(reached, &report, watcher.sink)) {
+                Some(Ok(checkpoint)) => {
                     segment = plan.segment(Some(&checkpoint));
                     error = writer.take(checkpoint).err();
                 }
-                Err(refused) => error = Some(refused),
+                Some(Err(refused)) => error = Some(refused),
+                None => match writer.end() {
+                    Ok(()) => return Ok(report),
+                    Err(refused) => error = Some(refused),
+                },
             }
         } else if let Some(writer) = &mut writer {
             // What stopped the run is the news, even if this fails, too.
@@ -94,12 +95,16 @@ pub fn run(
                 error,
                 time,
                 report,
-                resumable: writer
-                    .as_ref()
-                    .is_some_and(CheckpointWriter::can_be_resumed),
+                resumable: resumable(&writer),
             });
         }
     }
+}
+
+/// Whether there is a checkpoint to go on from.
+fn resumable(writer: &Option<CheckpointWriter>) -> bool {
+    let writer = writer.as_ref();
+    writer.is_some_and(CheckpointWriter::can_be_resumed)
 }
 
 /// The checkpoint at the end of a segment.

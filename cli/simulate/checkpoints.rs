@@ -2,7 +2,7 @@
 
 use super::cases::Case;
 use crate::arguments::Simulate;
-use crate::checkpoint::{Checkpoint, Checkpoints, read};
+use crate::checkpoint::{Checkpoint, Checkpoints, NONE, read};
 use crate::error::CommandError;
 use crate::formula::Setting;
 use crate::mechanism::identity;
@@ -87,6 +87,6 @@ pub fn say_how_to_go_on(arguments: &Simulate, resumable: bool) {
         true => say(&format!(
             "the run can be taken up again: the same command with `--resume {file}`"
         )),
-        false => say("no checkpoint was written: the first is due after some thousand steps"),
+        false => say(NONE),
     }
 }
