@@ -100,6 +100,14 @@ fn a_summary_as_json_says_what_was_done() {
     let passage = summary["passages"][0].as_f64().expect("a time");
     assert!((passage - 0.877).abs() < 1e-3, "{passage}");
     assert!(summary["error"].is_null());
+    // Of a run that can't begin, too.
+    let run = [&run[..], &["--set", "L1=7", "--out", &text]].concat();
+    let ran = bricard(&run);
+    assert_eq!(ran.status, Some(1), "{}", ran.err);
+    let summary: serde_json::Value = serde_json::from_str(&ran.out).expect("JSON");
+    assert_eq!(summary["steps"], 0);
+    let error = summary["error"].as_str().expect("an error");
+    assert!(ran.err.contains(error), "{error}");
 }
 
 #[test]

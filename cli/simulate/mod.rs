@@ -25,7 +25,7 @@ use crate::interrupt;
 use crate::law::described_with;
 use crate::output::{print, say};
 use crate::page::Live;
-use crate::run::run;
+use crate::run::{Report, run};
 use cases::Case;
 use picture::Picture;
 use prepare::{Prepared, prepared};
@@ -104,9 +104,10 @@ pub fn simulate_for(arguments: &Simulate, live: Option<&Live>) -> Result<(), Com
     if let Some(report) = report.filter(|report| result.is_ok() || report.steps > 0) {
         say(summary::summary(report, structure, settings).trim_end());
     }
-    if let Some(report) = report.filter(|_| arguments.json) {
+    if arguments.json {
         let error = result.as_ref().err().map(|stopped| &stopped.error);
-        print(&format!("{:#}\n", summary::json(report, structure, error)))?;
+        let object = summary::json(report.unwrap_or(&Report::default()), structure, error);
+        print(&format!("{object:#}\n"))?;
     }
     match result {
         Ok(_) => Ok(()),
