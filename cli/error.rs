@@ -35,7 +35,7 @@ pub enum CommandError {
         known: Vec<String>,
     },
     /// A name that no mechanism of the library has, beside the file that is meant.
-    NameOfFile(PathBuf),
+    NameOfFile(String, PathBuf),
     /// A name of something that is no column to add.
     NoColumn {
         /// The name.
@@ -58,6 +58,13 @@ pub enum CommandError {
         option: &'static str,
         /// The name.
         name: String,
+    },
+    /// A word that a list has twice.
+    Repeated {
+        /// The option.
+        option: &'static str,
+        /// The word.
+        word: String,
     },
     /// What a name can't be set to, or at all.
     InvalidSetting {
@@ -241,10 +248,11 @@ impl CommandError {
         match self {
             Self::Several(all) => all.first().map_or(FAILED, Self::status),
             Self::UnknownName { .. }
-            | Self::NameOfFile(_)
+            | Self::NameOfFile(..)
             | Self::NoColumn { .. }
             | Self::OutOfRange { .. }
             | Self::Twice { .. }
+            | Self::Repeated { .. }
             | Self::InvalidSetting { .. }
             | Self::SetInstead { .. }
             | Self::TwoLists { .. }
@@ -279,7 +287,7 @@ impl Display for CommandError {
                 names,
                 known,
             } => unknown_names(f, kind, owner, names, known),
-            Self::NameOfFile(file) => name_of_file(f, file),
+            Self::NameOfFile(name, file) => name_of_file(f, name, file),
             Self::NoColumn { name, reason } => write!(f, "`{name}` {reason}"),
             Self::OutOfRange {
                 option,
@@ -289,6 +297,7 @@ impl Display for CommandError {
             Self::Twice { option, name } => {
                 write!(f, "{option} gives `{name}` two values; leave one out")
             }
+            Self::Repeated { option, word } => repeated(f, option, word),
             Self::InvalidSetting { name, reason } => write!(f, "`--set {name}=…`: {reason}"),
             Self::SetInstead { name } => set_instead(f, name),
             Self::TwoLists { options } => two_lists(f, options),
@@ -329,6 +338,10 @@ impl Display for CommandError {
             Self::NobodyReads => f.write_str("nobody reads standard output any more"),
         }
     }
+}
+
+fn repeated(f: &mut Formatter<'_>, option: &str, word: &str) -> fmt::Result {
+    write!(f, "{option} has `{word}` twice; leave one out")
 }
 
 fn out_of_bounds(f: &mut Formatter<'_>, broken: &[String]) -> fmt::Result {

@@ -78,11 +78,11 @@ pub fn no_file(f: &mut Formatter<'_>, name: &str) -> fmt::Result {
 }
 
 /// A name that is one of a file here.
-pub fn name_of_file(f: &mut Formatter<'_>, file: &Path) -> fmt::Result {
+pub fn name_of_file(f: &mut Formatter<'_>, name: &str, file: &Path) -> fmt::Result {
     write!(
         f,
-        "there is no mechanism `{}` in the library; for the description here write its file, `{}`",
-        file.with_extension("").display(),
+        "there is no mechanism `{name}` in the library; for the description here write its file, \
+         `{}`",
         file.display()
     )
 }

@@ -26,9 +26,13 @@ pub fn find(name: &str) -> Result<Box<dyn AnyMechanism>, CommandError> {
 }
 
 fn unknown(name: &str) -> CommandError {
-    let file = PathBuf::from(format!("{name}.mech"));
-    if file.is_file() {
-        return CommandError::NameOfFile(file);
+    let beside = [format!("{name}.mech"), format!("./{name}")];
+    if let Some(file) = beside
+        .map(PathBuf::from)
+        .into_iter()
+        .find(|file| file.is_file())
+    {
+        return CommandError::NameOfFile(name.to_string(), file);
     }
     CommandError::UnknownName {
         kind: "mechanism",

@@ -4,6 +4,7 @@
 //! Out: what they hold, or everything that is wrong.
 
 use crate::error::CommandError;
+use clap::ValueEnum;
 use std::slice;
 
 /// What all results hold, or all that is wrong.
@@ -38,6 +39,32 @@ pub fn both<A, B>(
         (Err(one), Err(other)) => Err(joined(one, other)),
         (Err(error), _) | (_, Err(error)) => Err(error),
     }
+}
+
+/// Refuses a list that has a word twice.
+///
+/// # Errors
+///
+/// [`CommandError::Repeated`].
+pub fn once<T: ValueEnum + PartialEq>(
+    option: &'static str,
+    values: &[T],
+) -> Result<(), CommandError> {
+    let mut all = values.iter().enumerate();
+    match all.find(|(i, value)| values[..*i].contains(value)) {
+        None => Ok(()),
+        Some((_, value)) => Err(CommandError::Repeated {
+            option,
+            word: word(value),
+        }),
+    }
+}
+
+/// A value as it is written.
+pub fn word(value: &impl ValueEnum) -> String {
+    value
+        .to_possible_value()
+        .map_or_else(String::new, |value| value.get_name().to_string())
 }
 
 /// The mistakes, each of which is told by itself.

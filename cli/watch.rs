@@ -39,13 +39,7 @@ pub fn watch(arguments: &Simulate) -> Result<(), CommandError> {
         return Err(CommandError::NoFile(arguments.name.clone()));
     };
     only_one(arguments, "`watch` shows one run")?;
-    if arguments.live {
-        return Err(CommandError::UselessOption {
-            option: "--live",
-            method: "`watch`",
-            instead: "its page follows the file; for sliders say `bricard simulate` with --live",
-        });
-    }
+    useful(arguments)?;
     let (sender, changes) = channel();
     let mut watcher = recommended_watcher(move |heard: Heard| {
         // What is only read has not changed.
@@ -80,6 +74,37 @@ pub fn watch(arguments: &Simulate) -> Result<(), CommandError> {
             live.iter().for_each(Live::end);
             return Err(CommandError::interrupted());
         }
+    }
+}
+
+/// Refuses what cannot follow a file.
+fn useful(arguments: &Simulate) -> Result<(), CommandError> {
+    let given = [
+        (
+            "--live",
+            arguments.live,
+            "its page follows the file; for sliders say `bricard simulate` with --live",
+        ),
+        (
+            "--checkpoint",
+            arguments.checkpoint.is_some(),
+            "a checkpoint belongs to the text of the file, which changes: say `bricard simulate` \
+             with --checkpoint",
+        ),
+        (
+            "--resume",
+            arguments.resume.is_some(),
+            "a checkpoint belongs to the text of the file, which changes: say `bricard simulate` \
+             with --resume",
+        ),
+    ];
+    match given.into_iter().find(|(_, is_given, _)| *is_given) {
+        Some((option, _, instead)) => Err(CommandError::UselessOption {
+            option,
+            method: "`watch`",
+            instead,
+        }),
+        None => Ok(()),
     }
 }
 

@@ -9,6 +9,7 @@
 use crate::arguments::{MethodName, Passage};
 use crate::error::CommandError;
 use crate::mechanism::{find, precise};
+use crate::mistakes::once;
 use crate::number::largest;
 use crate::output::{print, say};
 use crate::run::{Plan, run};
@@ -29,6 +30,7 @@ const LOOK: f64 = 20.0;
 /// [`CommandError`]: a mechanism that passes no singular position, a run that CommandError::run,
 /// a placement that is worse than it may be.
 pub fn passage(arguments: &Passage) -> Result<(), CommandError> {
+    once("--methods", &arguments.methods)?;
     let mut rows = Vec::new();
     let mut broken = Vec::new();
     for name in &arguments.names {

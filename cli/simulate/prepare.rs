@@ -12,6 +12,7 @@ use crate::law::find_with;
 use crate::mistakes::both;
 use crate::output::say;
 use bricard_driver::{AnyMechanism, Changes};
+use bricard_runtime::{Stabilisation, Structure};
 
 /// What a run begins with.
 pub struct Prepared {
@@ -23,17 +24,35 @@ pub struct Prepared {
     pub columns: Vec<Column>,
 }
 
+/// Refuses what only constraints have a use for, where there are none.
+fn useful(arguments: &Simulate, structure: &Structure) -> Result<(), CommandError> {
+    let stabilised = arguments.stabilisation != Stabilisation::Projection;
+    let given = [
+        ("--published", arguments.published),
+        ("--stabilisation", stabilised),
+    ];
+    let mut given = given.into_iter().filter(|(_, is_given)| *is_given);
+    match given.next() {
+        Some((option, _)) if structure.constraints.is_empty() => Err(CommandError::UselessOption {
+            option,
+            method: "a mechanism without constraints",
+            instead: "leave it out",
+        }),
+        _ => Ok(()),
+    }
+}
+
 /// Finds what the command line names for a case.
 ///
 /// # Errors
 ///
-/// As [`find_with`], [`changes::find`] and [`columns`].
+/// As [`find_with`], [`useful`], [`changes::find`] and [`columns`].
 pub fn prepared(arguments: &Simulate, case: &Case) -> Result<Prepared, CommandError> {
     let (mut mechanism, set) = find_with(&arguments.name, &case.set)?;
     let structure = mechanism.structure();
     let changes = changes::find(structure, &arguments.name, &set, &case.start);
     let columns = columns(&arguments.columns, structure, &arguments.name);
-    let (changes, columns) = both(changes, columns)?;
+    let (((), changes), columns) = both(both(useful(arguments, structure), changes), columns)?;
     for name in changes::negative_inertia(&changes, structure) {
         say(&format!("warning: `{name}` is an inertia, and negative"));
     }

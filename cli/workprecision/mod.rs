@@ -12,7 +12,7 @@ use crate::error::{CommandError, TooMany};
 use crate::files::{apart, is_of, refuse};
 use crate::formula::Choice;
 use crate::law::{described_with, find_with};
-use crate::mistakes::both;
+use crate::mistakes::{both, once, word};
 use crate::output::{print, probe, say};
 use crate::plot::{Cloud, Mark, work_diagram};
 use crate::raster;
@@ -52,6 +52,10 @@ pub fn workprecision(arguments: &WorkPrecision) -> Result<(), CommandError> {
     }
     let written = [("--out", &arguments.out), ("--csv", &arguments.csv)];
     apart(&arguments.name, &written)?;
+    both(
+        once("--methods", &arguments.methods),
+        once("--forms", &arguments.forms),
+    )?;
     both(
         kind(&arguments.out, &DRAWINGS),
         kind(&arguments.csv, &TABLES),
@@ -109,11 +113,6 @@ fn forms(chosen: &[FormName], free: bool) -> Vec<FormName> {
         [] => FormName::value_variants().to_vec(),
         chosen => chosen.to_vec(),
     }
-}
-
-fn word(name: &impl ValueEnum) -> String {
-    name.to_possible_value()
-        .map_or_else(String::new, |value| value.get_name().to_string())
 }
 
 fn title(method: MethodName, form: FormName) -> String {

@@ -23,7 +23,7 @@ const SPOILT: &str = "could not keep what was compiled in …CACHEDIR.TAG: …; 
 
 const INTRODUCTION: &str = "\
 The command ends with status 2 where the command line is wrong, and with 1 where something \
-else is. `broken.mech` is a wrong description, `crane` a folder, and `…` stands for what \
+else is. `broken.mech` and `notes.txt` are wrong descriptions, `crane` is a folder, and `…` stands for what \
 depends on the machine or follows from what is above.
 ";
 
@@ -43,11 +43,12 @@ fn reasons() -> BTreeSet<String> {
     variants(&path, "CommandError").into_iter().collect()
 }
 
-/// A folder with a wrong description and something in the way.
+/// A folder with wrong descriptions and something in the way.
 fn place(test: &str) -> std::path::PathBuf {
     let folder = folder(test);
     let wrong = "mechanism Broken { coord q: rad; kinetic L9*der(q)^2; }";
     fs::write(folder.join("broken.mech"), wrong).expect("the folder is ours");
+    fs::write(folder.join("notes.txt"), wrong).expect("the folder is ours");
     fs::create_dir(folder.join("crane")).expect("the folder is ours");
     folder
 }

@@ -183,6 +183,45 @@ pub const CASES: &[Case] = &[
          `broken.mech`",
     ),
     (
+        "NameOfFile",
+        "simulate notes.txt",
+        2,
+        "there is no mechanism `notes.txt` in the library; for the description here write its \
+         file, `./notes.txt`",
+    ),
+    (
+        "Repeated",
+        "workprecision slider_crank --methods dp5,rk4,dp5",
+        2,
+        "--methods has `dp5` twice; leave one out",
+    ),
+    (
+        "UselessOption",
+        "simulate double_pendulum --published",
+        2,
+        "a mechanism without constraints has no use for --published; leave it out",
+    ),
+    (
+        "UselessOption",
+        "simulate double_pendulum --stabilisation none",
+        2,
+        "a mechanism without constraints has no use for --stabilisation; leave it out",
+    ),
+    (
+        "UselessOption",
+        "watch broken.mech --checkpoint c.json",
+        2,
+        "`watch` has no use for --checkpoint; a checkpoint belongs to the text of the file, which \
+         changes: say `bricard simulate` with --checkpoint",
+    ),
+    (
+        "UselessOption",
+        "watch broken.mech --resume c.json",
+        2,
+        "`watch` has no use for --resume; a checkpoint belongs to the text of the file, which \
+         changes: say `bricard simulate` with --resume",
+    ),
+    (
         "Read",
         "simulate ./broken",
         1,
