@@ -285,9 +285,9 @@ pub struct Simulate {
     /// worth a step)
     #[arg(long)]
     pub across_switches: bool,
-    /// Distance of the rows in time, in seconds [default: a row after each step;
-    /// for a plot by an adaptive method T/1000, or 0.05 s if that is less and the rows are for
-    /// the plot alone]
+    /// Distance of the rows in time, in seconds [default: a row after each step; by an adaptive
+    /// method for a plot T/1000, or 0.05 s if that is less and the rows are for the plot alone, for
+    /// a page or film 0.01 s, with 1001 rows at least and 6001 at most]
     #[arg(long, value_name = "dt", allow_hyphen_values = true, value_parser = formula::number)]
     pub every: Option<f64>,
     /// Change a parameter, or hold an input at a value; several values with commas between

@@ -4,6 +4,7 @@
 //! Out: where it is, how large it is and what is in it; with `--clear`, an empty cache.
 
 use crate::arguments;
+use crate::captions::counted;
 use crate::compiled::cache::{Cache, entries};
 use crate::error::CommandError;
 use crate::output::print;
@@ -66,11 +67,14 @@ fn contents(root: &Path) -> Vec<Vec<String>> {
         let count = entries(&folder.join("sizes")).len();
         let shared = ["libraries", "boundary", "sizes"].map(|shared| folder.join(shared));
         let size: u64 = shared.iter().map(|folder| bytes(folder)).sum();
-        let what = format!("shared by all, and by mechanisms of {count} pairs of sizes");
+        let pairs = counted(count, "pair");
+        let what = format!("shared by all, and by mechanisms of {pairs} of sizes");
         rows.push(vec![version.clone(), what, in_megabytes(size)]);
         for shelf in ["programs", "exported"].map(|shelf| folder.join(shelf)) {
             for entry in sorted(&shelf) {
                 let size = megabytes(&shelf.join(&entry));
+                // Files have any names, also such as end a line.
+                let entry = entry.replace(char::is_control, "?");
                 rows.push(vec![String::new(), entry, size]);
             }
         }

@@ -279,7 +279,12 @@ fn the_cache_is_shown_and_cleared() {
     let program = folder.join("bricard/0.1.0-abc/programs/crane-123");
     fs::create_dir_all(&program).expect("the folder is ours");
     fs::write(program.join("mechanism"), vec![0; 2_500_000]).expect("the folder is ours");
+    for other in ["programs/two\nlines-4", "sizes/3-2"] {
+        let other = folder.join("bricard/0.1.0-abc").join(other);
+        fs::create_dir_all(other).expect("the folder is ours");
+    }
     let ran = command(&["cache"]).done();
+    ran.prints(&["two?lines-4", "of 1 pair of sizes"]);
     let line = |begin: &str| {
         let mut lines = ran.out.lines().map(str::trim);
         let found = lines.rfind(|line| line.starts_with(begin));

@@ -142,6 +142,9 @@ fn examples_show_the_values_of_states() {
     let told = example_in_c(&folder.join("c"), "motor");
     assert_eq!(told.lines().next(), said.lines().next());
     assert_eq!(last_row(&told), wanted, "{told}");
+    // Without constraints there is nothing to say of them.
+    let summary = told.lines().last().expect("a summary");
+    assert!(summary.ends_with(" steps"), "{summary}");
 }
 
 #[test]

@@ -49,6 +49,8 @@ int main(void)
     failed = bricard_assemble(m, 0.0) || bricard_run(m, 10.0, &watch, &summary);
     if (failed)
         fprintf(stderr, "%s\n", bricard_message(m));
+    else if (UPPER_R == 0)
+        printf("%lu steps\n", (unsigned long)summary.steps);
     else
         printf("%lu steps, %lu passages through singular positions, "
                "largest constraint error %.1e\n",
