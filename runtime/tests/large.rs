@@ -168,6 +168,25 @@ fn a_row_of_40_loops_is_stepped_by_every_method_in_a_thread_of_2_mb() {
     });
 }
 
+/// As the page on modelling says: a debug build has the largest frames.
+#[test]
+fn small_mechanisms_run_in_threads_of_256_kb() {
+    in_a_thread_of(256 << 10, || {
+        const SIZES: (usize, usize) = sizes(3);
+        let start = leaning::<{ SIZES.0 }>(0.3);
+        for options in [
+            Options::dop853(0.02, 1e-8),
+            Options::new(
+                0.02,
+                Method::Radau9,
+                Options::dop853(0.02, 1e-8).step_control,
+            ),
+        ] {
+            run::<_, { SIZES.0 }, { SIZES.1 }>(Row::<3>, &start, &options);
+        }
+    });
+}
+
 #[test]
 fn equations_of_160_loops_are_evaluated_in_a_thread_that_has_no_room_for_them() {
     in_a_thread_of(STACK / 8, || {
