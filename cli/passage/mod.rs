@@ -140,7 +140,12 @@ fn places(method: Method, step: f64) -> Vec<(f64, f64)> {
 
 /// When a mechanism first passes a singular position (s).
 fn first_passage(name: &str, mechanism: &dyn AnyMechanism) -> Result<f64, CommandError> {
-    let plan = Plan::new(Options::dop853(LOOK, SEARCH), Some(LOOK), Vec::new());
+    say(&format!("{name}: looking for a singular position"));
+    let plan = Plan {
+        // In stiff mechanisms it takes minutes.
+        watched: true,
+        ..Plan::new(Options::dop853(LOOK, SEARCH), Some(LOOK), Vec::new())
+    };
     let report = run(mechanism, &plan, &mut Vec::new()).map_err(|stopped| stopped.error)?;
     match report.passages.first() {
         Some(passage) => Ok(passage.t),
