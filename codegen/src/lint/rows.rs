@@ -46,7 +46,7 @@ fn flattens(numbers: &Numbers, row: usize, start: &Place) -> Option<bool> {
     let extremum = after * after * norm(&moved) / (2.0 * before);
     let round_off = f64::EPSILON * before * norm(&start.q).max(1.0);
     let is_double = IS_ZERO * extremum <= errors[0].abs() + round_off;
-    holds.then(|| after <= VANISHED * before && is_double)
+    holds.then_some(after <= VANISHED * before && is_double)
 }
 
 /// Warns of equations whose derivatives vanish where they hold.
