@@ -324,7 +324,7 @@ fn a_run_by_path_goes_on_from_its_checkpoint_unless_the_file_is_edited() {
     write(&folder, "p.mech", &pendulum("Resumed", 0.6));
     let refused = run(&folder, &resume);
     assert_eq!(refused.status, Some(2), "{}", refused.err);
-    refused.says(&["one of another run"]);
+    refused.says(&["one of another run", "what differs: mechanism\n"]);
     write(&folder, "p.mech", &pendulum("Resumed", 0.5));
     done(&folder, &resume);
     let [one, two] = [&whole, &parts].map(|path| fs::read(path).expect("rows"));

@@ -170,6 +170,9 @@ fn a_finished_run_can_be_prolonged_to_the_same_bytes() {
     };
     bricard(&run(&until("200"), &whole, &["--checkpoint", &other])).done();
     bricard(&run(&until("100.7"), &parts, &["--checkpoint", &file])).done();
+    let other = ["--resume", &file, "--form", "full", "--set", "L=0.4"];
+    let said = ["another run", "what differs: --set, --form\n"];
+    check_refused(&run(&until("200"), &parts, &other), 2, &said);
     bricard(&run(&until("200"), &parts, &["--resume", &file])).done();
     let [one, two] = [whole, parts].map(|path| fs::read(path).expect("rows"));
     assert!(one == two, "the bytes differ");

@@ -32,7 +32,7 @@ const PERIOD: Duration = Duration::from_secs(5);
 /// Which checkpoints a run writes, and which it begins with.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Checkpoints {
-    /// What the run is, in words: a checkpoint of another one is refused.
+    /// What the run is, a line for each choice: a checkpoint of another one is refused.
     pub run: String,
     /// Where checkpoints go.
     pub file: Option<PathBuf>,
@@ -144,6 +144,6 @@ pub fn read(path: &Path, run: &str, structure: &Structure) -> Result<Checkpoint,
     let text = String::from_utf8_lossy(&bytes);
     Checkpoint::read(&text, run, structure).map_err(|reason| CommandError::Checkpoint {
         path: path.to_path_buf(),
-        reason: reason.to_string(),
+        reason,
     })
 }

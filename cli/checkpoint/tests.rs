@@ -76,7 +76,7 @@ fn states_that_no_run_comes_to_are_refused() {
         let read = Checkpoint::read(&checkpoint.text(RUN), RUN, structure());
         assert_eq!(
             read,
-            Err("it is damaged; begin the run anew"),
+            Err("it is damaged; begin the run anew".to_string()),
             "{checkpoint:?}"
         );
     };

@@ -55,20 +55,21 @@ impl Checkpoint {
     /// # Errors
     ///
     /// Why a run can't go on from it.
-    pub fn read(text: &str, run: &str, structure: &Structure) -> Result<Self, &'static str> {
+    pub fn read(text: &str, run: &str, structure: &Structure) -> Result<Self, String> {
         let value: Value = serde_json::from_str(text)
             .map_err(|_| "it is no checkpoint, or damaged; give a file as --checkpoint wrote it")?;
         if value["format"] != FORMAT {
-            return Err("it is no checkpoint of this version of bricard; begin the run anew");
+            let other = "it is no checkpoint of this version of bricard; begin the run anew";
+            return Err(other.to_string());
         }
         if value["run"] != run {
-            return Err("it is one of another run: give the same mechanism and options");
+            return Err(another(value["run"].as_str().unwrap_or_default(), run));
         }
         let whole = value["checksum"] == checksum(&value);
         let parsed = Self::parse(&value, structure).filter(|parsed| whole && parsed.is_sound());
         parsed
             .filter(|parsed| parsed.state.len() == 1 + 2 * structure.coordinates.len())
-            .ok_or("it is damaged; begin the run anew")
+            .ok_or("it is damaged; begin the run anew".to_string())
     }
 
     /// Whether a run can have come here.
@@ -149,6 +150,21 @@ impl Checkpoint {
             },
         })
     }
+}
+
+/// What is said of a checkpoint of another run. The words for a run are lines, each of what
+/// is chosen, `: ` and the choice.
+fn another(known: &str, run: &str) -> String {
+    let differs = |(one, other): (&str, &str)| {
+        let ((name, value), (same, known)) = (one.split_once(": ")?, other.split_once(": ")?);
+        (name == same && value != known).then(|| name.to_string())
+    };
+    let others: Vec<String> = run.lines().zip(known.lines()).filter_map(differs).collect();
+    let others = match others.is_empty() {
+        true => String::new(),
+        false => format!("; what differs: {}", others.join(", ")),
+    };
+    format!("it is one of another run: give the same mechanism and options{others}")
 }
 
 /// A number that changes with anything else in the file: the hash of all entries but this one.

@@ -9,7 +9,7 @@ use crate::mechanism::identity;
 use crate::output::{probe, say};
 use crate::run::Plan;
 use bricard_driver::Changes;
-use bricard_runtime::{Options, Structure};
+use bricard_runtime::Structure;
 use std::path::Path;
 
 /// The checkpoints of a run, if it has some.
@@ -53,28 +53,34 @@ fn goes_further(until: f64, file: &Path, checkpoint: &Checkpoint) -> Result<(), 
     }
 }
 
-/// Everything that decides the bits of a run, in words. Its end is not among it: a run
-/// may be taken up again to go further.
+/// Everything that decides the bits of a run, a line for each choice. Its end is not among
+/// it: a run may be taken up again to go further.
 fn described(
     (arguments, case): (&Simulate, &Case),
     plan: &Plan,
     changes: &Changes,
 ) -> Result<String, CommandError> {
-    let (version, name) = (env!("CARGO_PKG_VERSION"), identity(&arguments.name)?);
-    let options = Options {
-        until: 0.0,
-        ..plan.options
-    };
-    let (every, columns) = (plan.every, &plan.columns);
+    let (options, settings) = (&plan.options, &plan.options.settings);
     let is_law = |setting: &&Setting| matches!(setting, Setting::Law { .. });
     let laws: Vec<&Setting> = case.set.iter().filter(is_law).collect();
-    let laws = match laws.is_empty() {
-        true => String::new(),
-        false => format!(" {laws:?}"),
-    };
-    Ok(format!(
-        "bricard {version}: {name} {changes:?}{laws} {options:?} {every:?} {columns:?}"
-    ))
+    let set = (&changes.parameters, &changes.inputs, laws);
+    let lines: [(&str, String); 13] = [
+        ("version", env!("CARGO_PKG_VERSION").to_string()),
+        ("mechanism", identity(&arguments.name)?),
+        ("--set", format!("{set:?}")),
+        ("--start", format!("{:?}", changes.given)),
+        ("--method", options.method.to_string()),
+        ("step or tolerance", format!("{:?}", options.step_control)),
+        ("--form", settings.form.to_string()),
+        ("--stabilisation", format!("{:?}", settings.stabilisation)),
+        ("--published", settings.published.to_string()),
+        ("--across-switches", settings.across_switches.to_string()),
+        ("--keep-energy", options.keep_energy.to_string()),
+        ("--every", format!("{:?}", plan.every)),
+        ("--columns", format!("{:?}", plan.columns)),
+    ];
+    let lines = lines.map(|(name, choice)| format!("{name}: {choice}"));
+    Ok(lines.join("\n"))
 }
 
 /// Says how a run that ended early can be taken up again, or why it can't.
