@@ -199,7 +199,7 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
 
     /// Whether a constraint error is small enough, if it can't be smaller.
     pub(crate) fn is_negligible(&self, worst: T) -> bool {
-        let CoordinateScale { size, range } = self.coordinate_scale;
+        let CoordinateScale { size, range, .. } = self.coordinate_scale;
         worst <= (negligible::<T>() * range).max(round_off::<T>() * critical() * size)
     }
 

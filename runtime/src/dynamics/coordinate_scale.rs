@@ -21,8 +21,10 @@ pub(crate) struct CoordinateScale<T> {
     /// The largest length of the coordinates so far: what their round-off is relative to.
     pub(crate) size: T,
     /// The largest length of the coordinates so far, where angles of many turns count as one turn:
-    /// constraints change over a distance of about this length.
+    /// constraints change over a distance of about this length, or of the limit, if that is less.
     pub(crate) range: T,
+    /// The limit of the range; none where it is not known.
+    limit: Option<T>,
 }
 
 impl<T: Real> CoordinateScale<T> {
@@ -30,6 +32,12 @@ impl<T: Real> CoordinateScale<T> {
     /// coordinates, are for the turns that angles have made.
     pub(crate) fn turns(&self) -> T {
         self.size / self.range
+    }
+
+    /// Limits the range, where constraints are known to change over a shorter distance.
+    pub(super) fn limit(&mut self, most: T) {
+        self.range = self.range.min(most);
+        self.limit = Some(most);
     }
 
     /// Takes note of coordinates `q`, which are used up, and sets the `sizes` up to which they are
@@ -71,13 +79,14 @@ impl<T: Real> CoordinateScale<T> {
                 *range = range.min(T::from_f64(TAU));
             }
         }
-        let range = length(factor, q);
-        *self = match moved {
-            true => Self {
-                size: self.size.max(size),
-                range: self.range.max(range),
-            },
-            false => Self { size, range },
+        let mut range = length(factor, q);
+        if moved {
+            (size, range) = (self.size.max(size), self.range.max(range));
+        }
+        *self = Self {
+            size,
+            range: self.limit.map_or(range, |limit| range.min(limit)),
+            limit: self.limit,
         };
     }
 }

@@ -15,6 +15,7 @@ mod acceleration_jacobian;
 mod conditions;
 mod constrained;
 mod coordinate_scale;
+mod curvature;
 mod emitted;
 mod erased;
 mod extremum;

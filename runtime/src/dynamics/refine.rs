@@ -72,7 +72,8 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
             let change = self.change_along(&point, &held.q, &missed, None)?;
             guess.q = point.state.q + change;
         }
-        let mut refined = State::new(state.t, point.state.q, point.drift);
+        // The last change is so small that it needs no sheet but its tangent space.
+        let mut refined = State::new(state.t, guess.q, point.drift);
         let mut free = Some(state.v - point.drift);
         for _ in 0..ROUNDS {
             let missed = chosen(&held.v, &(state.v - refined.v));

@@ -185,6 +185,7 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
         mechanism.position(state, &mut self.position);
         self.factorise_metric(mechanism, Source::Position, state.t)?;
         self.observe_coordinate_scale(mechanism, state)?;
+        self.observe_curvature(mechanism, state);
         self.learn_rank(mechanism, state)?;
         self.prepared = true;
         Ok(())

@@ -50,7 +50,7 @@ pub(super) fn has_one_sign<T: Real>(
         return false;
     };
     let (along, moved) = (workspace.numbers(n), workspace.numbers(n));
-    let CoordinateScale { size, range } = solver.known().coordinate_scale;
+    let CoordinateScale { size, range, .. } = solver.known().coordinate_scale;
     for (value, vector) in values().zip(vectors.chunks_exact(count)) {
         if !flat(value) {
             continue;

@@ -115,16 +115,16 @@ impl<'a, T: Real> Block<'a, T> {
     }
 
     /// The smallest pivot of an elimination with complete pivoting: about the smallest
-    /// singular value; one for an empty block. The elimination takes its place.
+    /// singular value; infinite for an empty block. The elimination takes its place.
     ///
     /// Rows stay in their places and entries that are zero are skipped: loops in a row
     /// leave a block with a few entries in each row.
     pub(crate) fn smallest(&mut self, workspace: &Workspace<'_, T>) -> T {
         match self.size {
-            0 => T::one(),
+            0 => T::from_f64(f64::INFINITY),
             // A comparison with NaN is false, so that an entry that is NaN counts as zero.
             1 => match self.first().abs() > T::zero() {
-                true => self.first().abs().min(T::one()),
+                true => self.first().abs(),
                 false => T::zero(),
             },
             FEW => smallest_pivot(FEW, self.entries, &mut [0; FEW], &mut [T::zero(); FEW]),
@@ -174,7 +174,7 @@ fn smallest_pivot<T: Real>(
     peaks: &mut [T],
 ) -> T {
     let entries = &mut entries[..size * size];
-    let mut smallest = T::one();
+    let mut smallest = T::from_f64(f64::INFINITY);
     for (row, entries) in entries.chunks_exact(size).enumerate() {
         (open[row], peaks[row]) = (row, peak_of(entries));
     }

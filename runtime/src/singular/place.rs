@@ -248,7 +248,7 @@ impl<T: Real> Sheet<'_, T> {
             return Ok(Serves::Not(Placement::Gap));
         }
         // Rows are no more exact than the coordinates, whose round-off grows with their size.
-        let CoordinateScale { size, range } = self.chart.coordinate_scale;
+        let CoordinateScale { size, range, .. } = self.chart.coordinate_scale;
         let reach = |length: T| (direction.rate * length).max(T::one());
         let noise = T::from_f64(NOISE) * T::EPSILON * best.noise * reach(size);
         let excused = noise.min(excusable::<T>() * reach(range));

@@ -1,7 +1,9 @@
 //! Descriptions of one mechanism in other units, or at another place, are the same mechanism.
 
-use bricard_runtime::{Options, State, StepControl, Whole, assemble, simulate};
+use bricard_runtime::{Method, Options, State, StepControl, Whole, assemble, simulate};
 use bricard_singular::descriptions::far_circle::FarCircle;
+use bricard_singular::descriptions::far_parallelogram::FarParallelogram;
+use bricard_singular::descriptions::sized_parallelogram::SizedParallelogram;
 use bricard_singular::descriptions::unitless::Unitless;
 
 /// Where it is after some passages, in lengths of its links, and how many those were.
@@ -61,6 +63,64 @@ fn a_small_circle_may_be_far_from_the_origin() {
             let error = (found - wanted).abs();
             let bound = 1e-9 + 1e3 * f64::EPSILON * far;
             assert!(error < bound, "{far:e} m off: {found} instead of {wanted}");
+        }
+    }
+}
+
+/// It is where it is without being far, and passes as many singular positions.
+#[test]
+fn a_loop_may_be_far_from_the_origin() {
+    let moved = |far: f64, method, tolerance| {
+        let mut mechanism = FarParallelogram::<f64>::default();
+        mechanism.parameters.far = far;
+        let mechanism: &dyn Whole<f64, 4, 3> = &mechanism;
+        let start = assemble(mechanism, &mechanism.start(), 0.0)
+            .unwrap_or_else(|failure| panic!("{far:e} m off: {failure}"));
+        let options = Options {
+            method,
+            ..Options::dop853(3.0, tolerance)
+        };
+        let ran = simulate(mechanism, &start, &options, &mut []);
+        let summary = ran.unwrap_or_else(|failure| panic!("{far:e} m off: {failure}"));
+        assert_eq!(summary.passages, Some(6), "{far:e} m off");
+        summary.end.q.map(|q| q - far)
+    };
+    let wanted = moved(0.0, Method::Dop853, 1e-12);
+    for far in [1e2, 1e3, 1e4, 1e5, 1e6] {
+        for (method, tolerance) in [
+            (Method::Dop853, 1e-9),
+            (Method::Dp5, 1e-9),
+            (Method::Dop853, 1e-11),
+        ] {
+            let found = moved(far, method, tolerance);
+            let error = (found - wanted).amax();
+            let bound = 20.0 * tolerance * far.max(1e3);
+            assert!(error < bound, "{far:e} m off, {method:?}: {error:e}");
+        }
+    }
+}
+
+/// A linkage of a thousandth of a millimetre turns as one of a metre does.
+#[test]
+fn loops_may_be_small_and_light() {
+    let powers = |l: i32, m: i32| (2_f64.powi(l), 2_f64.powi(m));
+    for (l, m) in [(0, 0), (-20, 0), (0, -40), (-20, -40), (-33, -86), (37, 80)] {
+        let (length, mass) = powers(l, m);
+        let mut mechanism = SizedParallelogram::<f64>::default();
+        (mechanism.parameters.l, mechanism.parameters.m) = (length, mass);
+        let mechanism: &dyn Whole<f64, 3, 2> = &mechanism;
+        let start = assemble(mechanism, &mechanism.start(), 0.0).expect("a start");
+        for method in [Method::Dop853, Method::Dp5, Method::Radau5] {
+            let name = format!("length 2^{l}, mass 2^{m}, {method:?}");
+            let options = Options {
+                method,
+                ..Options::dop853(0.02, 1e-9)
+            };
+            let ran = simulate(mechanism, &start, &options, &mut []);
+            let summary = ran.unwrap_or_else(|failure| panic!("{name}: {failure}"));
+            assert_eq!(summary.passages, Some(6), "{name}");
+            let turned = summary.end.q[0] - start.q[0];
+            assert!((turned - 20.0).abs() < 1e-6, "{name}: {turned}");
         }
     }
 }

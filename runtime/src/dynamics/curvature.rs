@@ -1,0 +1,94 @@
+//! Over what distance constraint rows turn.
+//!
+//! In:  the first state of a motion, the sizes of the rows.
+//! Out: the radius of curvature of the constraint set where it is straightest.
+//!
+//! Lengths of coordinates say where a mechanism is, and how large it is only if it is near the
+//! origin.
+
+use super::Core;
+use super::erased::{Constrained, Known};
+use crate::equations::At;
+use crate::linalg::{Workspace, norm, solve_upper};
+use crate::once::compiled_once;
+use crate::tolerance::{difference, excusable};
+use crate::{Mechanism, Real, State};
+
+/// How many displacements are tried.
+const DISPLACEMENTS: usize = 4;
+/// How often the distance of the displacements is made shorter. Where rows are unit vectors, those
+/// that are too long tell nothing but their own length.
+const PASSES: usize = 3;
+/// Constraints change over at most so many radii of curvature, times the root of the number of
+/// coordinates: it takes that many, each as far, to go so far.
+const RADII: f64 = 50.0;
+
+impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
+    /// Takes note of the distance over which constraints change, at a state at which the metric is
+    /// factorised.
+    #[inline(never)]
+    pub(super) fn observe_curvature(
+        &mut self,
+        mechanism: &dyn Mechanism<T, N, R>,
+        state: &State<T, N>,
+    ) {
+        let radii = T::from_f64(RADII * (N as f64).sqrt());
+        for _ in 0..PASSES {
+            let (mut solver, workspace, _) = self.lend(mechanism);
+            let radius = measuring()(&mut solver, state.at(), &workspace);
+            self.coordinate_scale.limit(radius * radii);
+        }
+    }
+}
+
+/// The largest radius of curvature of constraint rows that turn, infinite where none does.
+fn radius_of_curvature<T: Real>(
+    solver: &mut dyn Constrained<T>,
+    state: At<'_, T>,
+    workspace: &Workspace<'_, T>,
+) -> T {
+    let (r, n) = (solver.known().r(), state.q.len());
+    let distance = difference::<T>() * solver.known().coordinate_scale.range;
+    let turned = workspace.numbers(r);
+    workspace.scope(|workspace| {
+        let [moved, change] = [(); 2].map(|()| workspace.numbers(n));
+        let here = workspace.numbers(n * r);
+        solver.locate(state.t, state.q);
+        here.copy_from_slice(solver.constraints().jacobian);
+        for displacement in 0..DISPLACEMENTS {
+            displace(solver.known(), displacement, moved);
+            for (moved, q) in moved.iter_mut().zip(state.q) {
+                *moved = distance.mul_add(*moved, *q);
+            }
+            solver.locate(state.t, moved);
+            let (there, known) = (solver.constraints().jacobian, solver.known());
+            for (row, turned) in turned.iter_mut().enumerate() {
+                let levers = there.iter().zip(&*here).skip(row).step_by(r);
+                for (change, (there, here)) in change.iter_mut().zip(levers) {
+                    *change = *there - *here;
+                }
+                solve_upper(known.factor, change);
+                *turned = turned.max(norm(change) * known.scale[row]);
+            }
+        }
+    });
+    solver.locate(state.t, state.q);
+    let turns = |turned: &&T| **turned > excusable() && turned.is_finite();
+    let radii = turned.iter().filter(turns).map(|turned| distance / *turned);
+    radii.reduce(T::max).unwrap_or(T::from_f64(f64::INFINITY))
+}
+
+/// A displacement in which all coordinates take part, as much as their inertia lets them.
+fn displace<T: Real>(known: Known<'_, T>, displacement: usize, moved: &mut [T]) {
+    for (j, entry) in moved.iter_mut().enumerate() {
+        // One sign for all, and then changes of sign at every, every other, and every fourth one.
+        let is_odd = displacement > 0 && (j >> (displacement - 1)) % 2 == 1;
+        *entry = if is_odd { -T::one() } else { T::one() };
+    }
+    known.lower(moved);
+}
+
+compiled_once! {
+    fn measuring<T>: fn(&mut dyn Constrained<T>, At<'_, T>, &Workspace<'_, T>) -> T =
+        radius_of_curvature;
+}
