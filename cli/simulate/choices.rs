@@ -104,6 +104,14 @@ fn step_control(arguments: &Simulate, method: MethodName) -> StepControl<f64> {
     }
 }
 
+/// The absolute tolerance of a run, if its steps follow one.
+pub fn absolute(plan: &Plan) -> Option<f64> {
+    match plan.options.step_control {
+        StepControl::Adaptive { absolute, .. } => Some(absolute),
+        StepControl::Fixed { .. } => None,
+    }
+}
+
 /// Refuses lengths and tolerances that make no sense, or that the method has no use for.
 fn check_numbers(arguments: &Simulate) -> Result<(), CommandError> {
     let fixed = fixed_step(arguments, method(arguments)).is_some();

@@ -6,6 +6,7 @@
 mod cases;
 mod checkpoints;
 mod choices;
+mod coarse;
 mod film;
 mod picture;
 mod prepare;
@@ -69,7 +70,13 @@ pub fn simulate_for(arguments: &Simulate, live: Option<&Live>) -> Result<(), Com
     let structure = mechanism.structure();
     plan.columns = columns.clone();
     plan.checkpoints = checkpoints::checkpoints((arguments, &case), &plan, &changes, structure)?;
-    let mut record = Record::open(arguments, structure, &columns, None)?;
+    let mut record = Record::open(
+        arguments,
+        structure,
+        &columns,
+        None,
+        choices::absolute(&plan),
+    )?;
     let shown = picture::shown(arguments, &columns, structure)?;
     plan.columns = shown.columns.clone();
     let checkpoints = plan.checkpoints.as_ref();

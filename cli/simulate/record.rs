@@ -12,6 +12,7 @@ use crate::output::{probe, say};
 use crate::parquet;
 use crate::rows::{CsvWriter, RowWriter};
 use crate::run::RowSink;
+use crate::simulate::coarse::Sizes;
 use bricard_runtime::Structure;
 use std::mem;
 use std::path::Path;
@@ -41,6 +42,7 @@ pub struct Record {
     last: f64,
     names: Vec<String>,
     undefined: Vec<Undefined>,
+    sizes: Sizes,
 }
 
 /// A column that had no value in some rows.
@@ -52,7 +54,8 @@ struct Undefined {
 }
 
 impl Record {
-    /// What the command line asks for; `varied` is the column that tells several runs apart.
+    /// What the command line asks for; `varied` is the column that tells several runs apart,
+    /// `absolute` the absolute tolerance, if steps follow one.
     ///
     /// # Errors
     ///
@@ -62,6 +65,7 @@ impl Record {
         structure: &Structure,
         columns: &[Column],
         varied: Option<String>,
+        absolute: Option<f64>,
     ) -> Result<Self, CommandError> {
         let pictures = || arguments.plot.iter().chain(&arguments.film);
         pictures().try_for_each(|path| probe(path))?;
@@ -80,6 +84,7 @@ impl Record {
             last: 0.0,
             names: header,
             undefined: Vec::new(),
+            sizes: Sizes::new(structure, absolute),
         })
     }
 
@@ -99,9 +104,9 @@ impl Record {
         }
     }
 
-    /// What to say of columns that had no value.
+    /// What to say of columns that had no value, and of coordinates with few digits.
     fn warnings(&self) -> impl Iterator<Item = String> {
-        self.undefined.iter().map(|undefined| {
+        let undefined = self.undefined.iter().map(|undefined| {
             let Undefined {
                 column,
                 first,
@@ -114,7 +119,8 @@ impl Record {
                  it, or a quotient by zero",
                 self.count
             )
-        })
+        });
+        undefined.chain(self.sizes.warnings())
     }
 
     /// Takes the rows of another run, which this value tells from the others.
@@ -178,6 +184,7 @@ impl Record {
 impl RowSink for Record {
     fn row(&mut self, values: &[f64]) -> Result<(), CommandError> {
         self.note(values);
+        self.sizes.note(values);
         if let Some(table) = &mut self.table {
             let values = values.get(..self.width).unwrap_or(values);
             match self.value {
@@ -216,6 +223,7 @@ mod tests {
             last: 0.0,
             names: ["t", "x", "p"].map(String::from).to_vec(),
             undefined: Vec::new(),
+            sizes: Sizes::new(&Structure::PLAIN, None),
         };
         for (t, p) in [(0.0, 1.0), (0.5, f64::NAN), (1.0, f64::INFINITY)] {
             // What a picture wants besides is not among the rows.

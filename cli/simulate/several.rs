@@ -39,7 +39,8 @@ pub fn simulate(arguments: &Simulate, varied: &Varied) -> Result<(), CommandErro
     // What is wrong with the command line is wrong for the first run, too.
     let first = prepared(arguments, &varied.first)?;
     let (structure, columns) = (first.mechanism.structure(), first.columns);
-    let mut record = Record::open(arguments, structure, &columns, Some(varied.column()))?;
+    let (column, absolute) = (varied.column(), choices::absolute(&plan));
+    let mut record = Record::open(arguments, structure, &columns, Some(column), absolute)?;
     let shown = shown(arguments, &columns, structure)?;
     plan.columns = shown.columns.clone();
     interrupt::listen();

@@ -133,4 +133,11 @@ pub trait System<T: Real, const N: usize> {
     ) -> Option<AccelerationJacobian<T, N>> {
         None
     }
+
+    /// Over what distances at most the acceleration is as good as linear in the coordinates, or
+    /// not much longer ones (m, rad): an angle that has turned a thousand times is not a thousand
+    /// times larger for that. Infinite where nothing is known.
+    fn extents(&self) -> SVector<T, N> {
+        SVector::repeat(T::from_f64(f64::INFINITY))
+    }
 }

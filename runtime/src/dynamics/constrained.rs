@@ -315,4 +315,8 @@ where
     fn acceleration_jacobian(&mut self, state: &State<T, N>) -> Option<AccelerationJacobian<T, N>> {
         with_room::<T, _, N, R>(|| self.solver.acceleration_jacobian(&self.mechanism, state))
     }
+
+    fn extents(&self) -> SVector<T, N> {
+        self.solver.extents(self.mechanism.structure())
+    }
 }

@@ -11,7 +11,7 @@ use crate::natural_size::Kind;
 use crate::tolerance::excusable;
 use crate::{DynamicsError, Mechanism, Real, State, Structure};
 use core::f64::consts::TAU;
-use nalgebra::SMatrix;
+use nalgebra::{SMatrix, SVector};
 
 /// Part of the range of all coordinates, or of a turn, by which one of them moves in a long step.
 const FAR: f64 = 0.25;
@@ -86,6 +86,21 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
         self.weights[lengths..].fill(T::zero());
         self.far[lengths..].fill(T::from_f64(f64::INFINITY));
         Ok(())
+    }
+
+    /// Over what distance the acceleration changes with each coordinate.
+    pub(crate) fn extents(&self, structure: &Structure) -> SVector<T, N> {
+        SVector::from_fn(|coordinate, _| {
+            let infinite = T::from_f64(f64::INFINITY);
+            let extent = match self.far[coordinate] {
+                unknown if unknown == T::zero() => infinite,
+                far => far / T::from_f64(FAR),
+            };
+            match structure.kind(coordinate) {
+                Some(Kind::Angle) => extent.min(T::from_f64(TAU)),
+                _ => extent,
+            }
+        })
     }
 
     /// Which coordinates are beyond a turn, and leave the constraint rows as they are when

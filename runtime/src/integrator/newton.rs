@@ -22,7 +22,7 @@ use crate::linalg::{Workspace, add_scaled, column, scaled};
 use crate::once::compiled_once;
 
 /// Vectors of all coordinates that an attempt at a step takes room for.
-pub(super) const VECTORS: usize = 3 * MOST_STAGES + 5;
+pub(super) const VECTORS: usize = 3 * MOST_STAGES + 6;
 
 /// Iterations after which a step is given up.
 const MOST_ITERATIONS: usize = 10;

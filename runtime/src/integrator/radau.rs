@@ -81,6 +81,10 @@ impl<T: Real, Y: System<T, N> + ?Sized, const N: usize> Flow<T> for Counted<'_, 
         by_v.copy_from_slice(jacobian.v.as_slice());
         true
     }
+
+    fn extents(&self, extents: &mut [T]) {
+        extents.copy_from_slice(self.system.extents().as_slice());
+    }
 }
 
 impl<T: Real, const N: usize> Radau<T, N> {

@@ -132,4 +132,8 @@ where
     fn acceleration_jacobian(&mut self, state: &State<T, N>) -> Option<AccelerationJacobian<T, N>> {
         self.system.acceleration_jacobian(state)
     }
+
+    fn extents(&self) -> SVector<T, N> {
+        self.system.extents()
+    }
 }

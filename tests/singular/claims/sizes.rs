@@ -124,3 +124,27 @@ fn loops_may_be_small_and_light() {
         }
     }
 }
+
+/// Derivatives by differences vary an angle by part of a turn, however many it has made.
+#[test]
+fn implicit_methods_pass_after_many_turns() {
+    let mechanism: &dyn Whole<f64, 3, 2> = &SizedParallelogram::<f64>::default();
+    for turns in [0.0, 1e3, 1e5] {
+        let mut guess = mechanism.start();
+        for j in [0, 1] {
+            guess.q[j].value += core::f64::consts::TAU * turns;
+        }
+        let start = assemble(mechanism, &guess, 0.0).expect("a start");
+        for method in [Method::Radau5, Method::Radau9] {
+            let options = Options {
+                method,
+                ..Options::dop853(0.02, 1e-8)
+            };
+            let ran = simulate(mechanism, &start, &options, &mut []);
+            let summary = ran.unwrap_or_else(|failure| panic!("{turns} turns: {failure}"));
+            assert_eq!(summary.passages, Some(6), "{turns} turns, {method:?}");
+            let turned = summary.end.q[0] - start.q[0];
+            assert!((turned - 20.0).abs() < 1e-5, "{turns} turns: {turned}");
+        }
+    }
+}
