@@ -15,6 +15,9 @@ const DRIFTED: f64 = 1e-3;
 /// Part of the exchanged energy by which the energy may be off.
 const UNBALANCED: f64 = 0.1;
 
+/// Energy (J) below which nothing moves but round-off.
+const AT_REST: f64 = 1e-26;
+
 /// What was done and how well, one quantity in a line.
 pub fn summary(report: &Report, structure: &Structure, settings: &Settings<f64>) -> String {
     let rows = quantities(report, structure, settings);
@@ -32,7 +35,7 @@ fn unbalanced(report: &Report) -> String {
         energy_exchanged: exchanged,
         ..
     } = *report;
-    match error > UNBALANCED * exchanged {
+    match error > UNBALANCED * exchanged && error > AT_REST {
         false => String::new(),
         true => format!(
             "warning: the energy is off by {error:.1e} J, where {exchanged:.1e} J at most were \

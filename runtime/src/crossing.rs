@@ -131,6 +131,18 @@ impl<T: Real> Samples<T> {
         self.values[0].abs() * (self.times[1] - self.times[0]) <= rise * moment
     }
 
+    /// How much the round-off of time changes the function at the ends.
+    pub(crate) fn round_off_of_time(&self) -> T {
+        let ((from, to), steepest) = (self.ends(), self.slope(0).max(self.slope(DEGREE - 1)));
+        T::EPSILON * T::from_f64(SAME_TIME) * from.abs().max(to.abs()) * steepest
+    }
+
+    /// How steep the function is between a sample and the next.
+    fn slope(&self, place: usize) -> T {
+        let rise = self.values[place + 1] - self.values[place];
+        (rise / (self.times[place + 1] - self.times[place])).abs()
+    }
+
     /// The side on which the function goes away from zero, if it does all the way and is
     /// beyond some noise from the beginning.
     pub(crate) fn leaves_zero(&self, noise: T) -> Option<T> {

@@ -7,6 +7,7 @@ mod crossing;
 mod dynamics;
 mod equations;
 mod error;
+mod extremum;
 mod integrator;
 mod kink;
 mod linalg;

@@ -2,6 +2,7 @@
 
 use crate::jumps::{near, run, state};
 use bricard_runtime::{Interface, Method, Options, StepControl, assemble, simulate};
+use bricard_switching::kicked::Kicked;
 use bricard_switching::parallelogram::Parallelogram;
 use bricard_switching::pulsed::Pulsed;
 use bricard_switching::released::Released;
@@ -101,5 +102,22 @@ fn two_conditions_change_at_the_same_instant_in_a_singular_configuration() {
             let counted = (done.passages, done.events);
             assert_eq!(counted, (Some(5), 5), "{:?} {tolerance:e}", options.method);
         }
+    }
+}
+
+/// A push that sets in and is weaker than friction again before the step ends lets the block go.
+#[test]
+fn a_push_that_fades_within_a_step_sets_a_block_in_motion() {
+    let mechanism = Kicked::default();
+    let start = assemble::<f64, _, 1, 0>(&mechanism, &mechanism.start(), 0.0).expect("a start");
+    let fixed = Options::new(6.5, Method::Dop853, StepControl::Fixed { step: 3.0 });
+    for options in methods(6.5, 1e-9).chain(methods(6.5, 1e-6)).chain([fixed]) {
+        let done = simulate::<_, _, 1, 0>(&mechanism, &start, &options, &mut [])
+            .unwrap_or_else(|failure| panic!("{failure}"));
+        // 2 s − 2 s² from 5 s on, until friction and push are 1.5 s later.
+        let off = (done.end.q[0] - 1.125)
+            .abs()
+            .max((done.end.v[0] - 0.75).abs());
+        assert!(off < 1e-6, "{:?}: {}", options.method, done.end.q[0]);
     }
 }

@@ -2,9 +2,12 @@
 
 use bricard_runtime::nalgebra::SVector;
 use bricard_runtime::{
-    DynamicsError, Method, Observer, Occurrence, Options, Probe, State, Step, StepControl, simulate,
+    DynamicsError, Interface, Method, Observer, Occurrence, Options, Probe, State, Step,
+    StepControl, assemble, simulate,
 };
 use bricard_switching::contact::Contact;
+use bricard_switching::gripped::Gripped;
+use bricard_switching::slowing::Slowing;
 use bricard_switching::stopping::Stopping;
 use bricard_switching::timed::Timed;
 use core::ops::ControlFlow;
@@ -148,6 +151,50 @@ fn a_block_that_friction_stops_stops_once_and_there() {
                     panic!("{method:?} {tolerance:e}: {:?}", diary.told);
                 };
                 assert!((t - stops).abs() < 1e-9, "{method:?} {tolerance:e}: {t}");
+            }
+        }
+    }
+}
+
+/// A velocity that friction holds at zero is zero where all coordinates are zero, too.
+#[test]
+fn a_block_held_at_the_origin_does_not_turn() {
+    let mechanism = Gripped::default();
+    let start = assemble::<f64, _, 1, 0>(&mechanism, &mechanism.start(), 0.0).expect("a start");
+    for method in Method::ALL {
+        let control = match method {
+            Method::Rk4 => StepControl::Fixed { step: 1e-3 },
+            _ => StepControl::Adaptive {
+                relative: 1e-9,
+                absolute: 1e-9,
+            },
+        };
+        let mut diary = Diary::default();
+        let options = Options::new(0.01, method, control);
+        simulate::<_, _, 1, 0>(&mechanism, &start, &options, &mut [&mut diary])
+            .unwrap_or_else(|failure| panic!("{failure}"));
+        assert_eq!(diary.told, [], "{method:?}");
+    }
+}
+
+/// A step that ends where friction stops a loop ends there but for the round-off of time.
+#[test]
+fn a_loop_that_friction_stops_is_said_to_stop_when_it_does() {
+    let mut mechanism = Slowing::default();
+    for w0 in [2.0, 3.0] {
+        mechanism.parameters.w0 = w0;
+        let start = assemble::<f64, _, 3, 2>(&mechanism, &mechanism.start(), 0.0).expect("a start");
+        for method in Method::ALL {
+            for step in [0.02, 0.05] {
+                let mut diary = Diary::default();
+                let options = Options::new(15.0, method, StepControl::Fixed { step });
+                simulate::<_, _, 3, 2>(&mechanism, &start, &options, &mut [&mut diary])
+                    .unwrap_or_else(|failure| panic!("{failure}"));
+                let [(0, t, false)] = diary.told[..] else {
+                    panic!("{method:?} {step} {w0}: {:?}", diary.told);
+                };
+                let off = t - w0 * 0.45 / 0.11;
+                assert!(off.abs() < 1e-5, "{method:?} {step} {w0}: off by {off:e}");
             }
         }
     }

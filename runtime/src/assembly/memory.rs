@@ -17,7 +17,7 @@ const SQUARE: usize = 6;
 /// Vectors of all coordinates, of which positions take most.
 const COORDINATES: usize = 12;
 /// Vectors of all rows.
-const ROWS: usize = 25;
+const ROWS: usize = 29;
 /// Lists of indices of all rows.
 const LISTS: usize = 9;
 

@@ -8,6 +8,7 @@
 //! positions in the neighbourhood.
 
 use crate::equations::Equations;
+use crate::extremum::{VANISHING, is_near_extremum};
 use crate::linalg::Workspace;
 use crate::natural_size::{Kind, NaturalSizes};
 use crate::{ConstraintRow, Real, Structure};
@@ -70,6 +71,7 @@ impl<'a, T: Real> Scales<'a, T> {
         }
         let (norms, reach) = (workspace.numbers(n_rows), workspace.numbers(n_rows));
         let near = workspace.numbers(n);
+        let here = workspace.numbers(2 * n_rows);
         for distance in NEIGHBOURHOOD {
             disturb(q, |i| sizes[i] * T::from_f64(distance), near);
             equations.locate(t, near);
@@ -86,6 +88,18 @@ impl<'a, T: Real> Scales<'a, T> {
                     norms[k] = norms[k].max(square.sqrt());
                     reach[k] = reach[k].max(length);
                 }
+            }
+            if distance == 0.0 {
+                here[..n_rows].copy_from_slice(norms);
+                here[n_rows..].copy_from_slice(reach);
+            }
+        }
+        // A row that is small here because the coordinates are large, and not near a singular
+        // configuration, has the size that it has here.
+        for k in 0..n_rows {
+            let is_small = here[k] > T::zero() && here[k] < norms[k] * T::from_f64(VANISHING);
+            if is_small && workspace.scope(|inner| is_near_extremum(equations, (t, q), k, inner)) {
+                (norms[k], reach[k]) = (here[k], here[n_rows + k]);
             }
         }
         for norm in norms.iter_mut() {

@@ -78,7 +78,8 @@ pub(super) fn assemble<T: Real>(
         true => branches.correct(draft.v, regular(), workspace),
         false => return Err(branches.refuse(draft.v, (guess, speed), workspace)?),
     }
-    Ok(())
+    branches.equations.locate(draft.t, draft.q);
+    check(&mut draft, speed, branches.equations, &measured)
 }
 
 /// Adds a scaled step to velocities.

@@ -23,8 +23,10 @@ pub(crate) struct CoordinateScale<T> {
     /// The largest length of the coordinates so far, where angles of many turns count as one turn:
     /// constraints change over a distance of about this length, or of the limit, if that is less.
     pub(crate) range: T,
-    /// The limit of the range; none where it is not known.
-    limit: Option<T>,
+    /// The range without a limit.
+    pub(super) unlimited: T,
+    /// The limit of the range; zero where it is not known.
+    limit: T,
 }
 
 impl<T: Real> CoordinateScale<T> {
@@ -34,10 +36,16 @@ impl<T: Real> CoordinateScale<T> {
         self.size / self.range
     }
 
-    /// Limits the range, where constraints are known to change over a shorter distance.
+    /// Whether the range is that of its limit.
+    pub(super) fn is_limited(&self) -> bool {
+        self.range < self.unlimited
+    }
+
+    /// Limits the range, where constraints are known to change over a shorter distance. It does
+    /// not become shorter than it was.
     pub(super) fn limit(&mut self, most: T) {
-        self.range = self.range.min(most);
-        self.limit = Some(most);
+        self.limit = self.limit.max(most);
+        self.range = self.unlimited.min(self.limit);
     }
 
     /// Takes note of coordinates `q`, which are used up, and sets the `sizes` up to which they are
@@ -81,12 +89,17 @@ impl<T: Real> CoordinateScale<T> {
         }
         let mut range = length(factor, q);
         if moved {
-            (size, range) = (self.size.max(size), self.range.max(range));
+            (size, range) = (self.size.max(size), self.unlimited.max(range));
         }
+        let limit = self.limit;
         *self = Self {
             size,
-            range: self.limit.map_or(range, |limit| range.min(limit)),
-            limit: self.limit,
+            range: match limit > T::zero() {
+                true => range.min(limit),
+                false => range,
+            },
+            unlimited: range,
+            limit,
         };
     }
 }

@@ -7,7 +7,7 @@
 //! origin.
 
 use super::Core;
-use super::erased::{Constrained, Known};
+use super::erased::Constrained;
 use crate::equations::At;
 use crate::linalg::{Workspace, norm, solve_upper};
 use crate::once::compiled_once;
@@ -16,6 +16,9 @@ use crate::{Mechanism, Real, State};
 
 /// How many displacements are tried.
 const DISPLACEMENTS: usize = 4;
+/// Coordinates with this part of the largest inertia of their kind have none to speak of: of Euler
+/// parameters one is nearly one at some positions, and then has only round-off.
+const LIGHTEST: f64 = 1e-6;
 /// How often the distance of the displacements is made shorter. Where rows are unit vectors, those
 /// that are too long tell nothing but their own length.
 const PASSES: usize = 3;
@@ -33,22 +36,29 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
         state: &State<T, N>,
     ) {
         let radii = T::from_f64(RADII * (N as f64).sqrt());
+        let mut range = self.coordinate_scale.unlimited;
+        let mut limit = T::zero();
         for _ in 0..PASSES {
             let (mut solver, workspace, _) = self.lend(mechanism);
-            let radius = measuring()(&mut solver, state.at(), &workspace);
-            self.coordinate_scale.limit(radius * radii);
+            let distance = difference::<T>() * range;
+            limit = measuring()(&mut solver, (state.at(), distance), &workspace) * radii;
+            if limit >= range {
+                break;
+            }
+            range = limit;
         }
+        self.coordinate_scale.limit(limit);
     }
 }
 
-/// The largest radius of curvature of constraint rows that turn, infinite where none does.
+/// The largest radius of curvature of constraint rows that turn over a distance, infinite where
+/// none does.
 fn radius_of_curvature<T: Real>(
     solver: &mut dyn Constrained<T>,
-    state: At<'_, T>,
+    (state, distance): (At<'_, T>, T),
     workspace: &Workspace<'_, T>,
 ) -> T {
     let (r, n) = (solver.known().r(), state.q.len());
-    let distance = difference::<T>() * solver.known().coordinate_scale.range;
     let turned = workspace.numbers(r);
     workspace.scope(|workspace| {
         let [moved, change] = [(); 2].map(|()| workspace.numbers(n));
@@ -56,10 +66,7 @@ fn radius_of_curvature<T: Real>(
         solver.locate(state.t, state.q);
         here.copy_from_slice(solver.constraints().jacobian);
         for displacement in 0..DISPLACEMENTS {
-            displace(solver.known(), displacement, moved);
-            for (moved, q) in moved.iter_mut().zip(state.q) {
-                *moved = distance.mul_add(*moved, *q);
-            }
+            displace(solver, (state.q, distance), displacement, moved);
             solver.locate(state.t, moved);
             let (there, known) = (solver.constraints().jacobian, solver.known());
             for (row, turned) in turned.iter_mut().enumerate() {
@@ -78,17 +85,30 @@ fn radius_of_curvature<T: Real>(
     radii.reduce(T::max).unwrap_or(T::from_f64(f64::INFINITY))
 }
 
-/// A displacement in which all coordinates take part, as much as their inertia lets them.
-fn displace<T: Real>(known: Known<'_, T>, displacement: usize, moved: &mut [T]) {
-    for (j, entry) in moved.iter_mut().enumerate() {
+/// A position from which all coordinates are displaced that have an inertia of their own, by a
+/// distance each. Others would go as far as one likes.
+fn displace<T: Real>(
+    solver: &dyn Constrained<T>,
+    (q, distance): (&[T], T),
+    displacement: usize,
+    moved: &mut [T],
+) {
+    let (mass, structure) = (solver.constraints().mass, solver.structure());
+    let inertia = |j: usize| mass[j * (q.len() + 1)];
+    for (j, moved) in moved.iter_mut().enumerate() {
+        let same = (0..q.len()).filter(|other| structure.kind(*other) == structure.kind(j));
+        let heaviest = same.fold(T::zero(), |most, other| most.max(inertia(other)));
+        let step = match inertia(j) > heaviest * T::from_f64(LIGHTEST) {
+            true => distance / inertia(j).sqrt(),
+            false => T::zero(),
+        };
         // One sign for all, and then changes of sign at every, every other, and every fourth one.
         let is_odd = displacement > 0 && (j >> (displacement - 1)) % 2 == 1;
-        *entry = if is_odd { -T::one() } else { T::one() };
+        *moved = if is_odd { q[j] - step } else { q[j] + step };
     }
-    known.lower(moved);
 }
 
 compiled_once! {
-    fn measuring<T>: fn(&mut dyn Constrained<T>, At<'_, T>, &Workspace<'_, T>) -> T =
+    fn measuring<T>: fn(&mut dyn Constrained<T>, (At<'_, T>, T), &Workspace<'_, T>) -> T =
         radius_of_curvature;
 }

@@ -18,7 +18,6 @@ mod coordinate_scale;
 mod curvature;
 mod emitted;
 mod erased;
-mod extremum;
 mod follow;
 mod full;
 mod independent;

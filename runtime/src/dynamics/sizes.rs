@@ -10,11 +10,11 @@
 //! for those that nearly vanish at the first state, and wherever else they are looked at do not.
 
 use super::erased::Constrained;
-use super::extremum::is_near_extremum;
 use super::rows::RowsView;
 use super::singular_values::lift;
 use super::{Core, Source};
 use crate::equations::At;
+use crate::extremum::{VANISHING, is_near_extremum};
 use crate::linalg::{Workspace, dot, independent_columns, is_definite, norm, scale};
 use crate::natural_size::{Kind, NaturalSizes};
 use crate::once::compiled_once;
@@ -33,10 +33,6 @@ const STRIDES: [f64; 2] = [0.618_033_988_749_894_9, 0.414_213_562_373_095];
 /// count: the mass matrix may be nearly singular at some positions, where rows are as
 /// large as one likes. A constant mass matrix is not.
 const UNUSUAL: f64 = 4.0;
-
-/// A row nearly vanishes at the first state if it is smaller there, by this factor, than wherever
-/// lengths are moved, unless it is near an extremum.
-const VANISHING: f64 = 1e-3;
 
 /// Kinds of coordinates.
 type Kinds = &'static [Kind];
@@ -243,7 +239,9 @@ pub(super) fn sample_sizes<T: Real>(
         if (0..r).any(|row| vanishes(&row)) {
             samples.sample(solver, state, ANY, workspace);
             for row in (0..r).filter(vanishes) {
-                if !workspace.scope(|inner| is_near_extremum(solver, state, row, inner)) {
+                if !workspace
+                    .scope(|inner| is_near_extremum(solver, (state.t, state.q), row, inner))
+                {
                     samples.observe(solver, row);
                 }
             }

@@ -317,7 +317,13 @@ impl<T: Real> dyn Motion<T> + '_ {
                 Ok(if above { T::one() - weight } else { weight })
             };
             let samples = Samples::of(&mut left, ends)?;
-            let found = earliest(&mut left, samples, T::one(), noise * samples.size())?;
+            let margin = noise * samples.size();
+            // Another condition that has just turned may end it at once, and what lets go may be
+            // back before the step ends.
+            let found = match samples.values[0] < -margin {
+                true => Some(ends.0),
+                false => earliest(&mut left, samples, T::one(), margin)?,
+            };
             first = match (first, found) {
                 (Some(a), Some(b)) => Some(a.min(b)),
                 (a, b) => a.or(b),

@@ -70,6 +70,10 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
             &mut self.sizes,
             &turns,
         );
+        if self.coordinate_scale.is_limited() {
+            // Where the motion began, constraints may have turned more sharply than they do now.
+            self.observe_curvature(mechanism, state);
+        }
         let far = self.coordinate_scale.range * T::from_f64(FAR);
         let inertia = diagonal(self.metric.factor.as_slice(), N);
         let known = self.weights.iter_mut().zip(&mut self.far);

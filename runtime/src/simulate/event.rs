@@ -16,6 +16,7 @@
 //! All of that is over times and values, and compiled once for mechanisms of all sizes.
 
 use super::SimulateError;
+use super::round_off::{largest, round_off, same_state};
 use crate::crossing::{Left, NODES, SAME_TIME, Samples, first_crossing, nodes, noise, told, zero};
 use crate::linalg::column;
 use crate::once::compiled_once;
@@ -23,7 +24,6 @@ use crate::pace::Pace;
 use crate::{
     Direction, DynamicsError, Event, Occurrence, OtherBranch, Probe, Real, State, Step, Watched,
 };
-use nalgebra::SVector;
 
 /// Events a mechanism may have.
 pub(super) const ROOM: usize = 64;
@@ -32,10 +32,6 @@ const CLEARLY: f64 = 1e-6;
 
 /// At the ends of a step a function is zero within this many units of the round-off of its size.
 const AT_ZERO: f64 = 32.0;
-
-/// States are the same to this power of round-off, relative to their largest coordinate and velocity
-/// (2e-12 for `f64`): beside singular configurations a quarter of the digits is not told.
-const SAME_STATE: f64 = 0.75;
 
 /// Writes the event functions of a mechanism at a state.
 pub(super) type Functions<'a, T, const N: usize> = &'a dyn Fn(&State<T, N>, &mut [T]);
@@ -49,6 +45,8 @@ pub(crate) struct Events<T> {
     sides: [T; ROOM],
     /// How large the functions are in the step at hand and in those shortly before.
     sizes: [T; ROOM],
+    /// Up to which size they are zero at the ends of the step at hand.
+    zeros: [T; ROOM],
     pace: Pace<T>,
     /// What they are off by, relative to their sizes.
     noise: T,
@@ -108,6 +106,7 @@ impl<T: Real> Events<T> {
             events: &[],
             sides: [T::zero(); ROOM],
             sizes: [T::zero(); ROOM],
+            zeros: [T::zero(); ROOM],
             pace: Pace::new(),
             noise: noise(tolerance),
             next: [None; ROOM],
@@ -184,7 +183,12 @@ impl<T: Real> Events<T> {
     /// within the first step: what is at rest where a run begins tells no size of velocities.
     fn begin_step<const N: usize>(&mut self, functions: Functions<'_, T, N>, step: &Step<T, N>) {
         let (start, length) = (step.start(), step.end().t - step.start().t);
-        let unresolved = largest(&start.q) * T::EPSILON * T::from_f64(AT_ZERO) / length;
+        // Where all coordinates are zero one unit stands for them.
+        let size = match largest(&start.q) {
+            none if none == T::zero() => T::one(),
+            size => size,
+        };
+        let unresolved = size * T::EPSILON * T::from_f64(AT_ZERO) / length;
         let mut values = [T::zero(); ROOM];
         functions(start, &mut values);
         let changes = round_off(functions, start, &values, [T::zero(), unresolved]);
@@ -235,7 +239,11 @@ impl<T: Real> Events<T> {
         let left = self.pace.observe(along.ends.1 - along.ends.0);
         for index in 0..self.events.len() {
             let values: [T; NODES] = values_of(index);
-            self.observe_size(index, left, Samples { times, values }.size());
+            let samples = Samples { times, values };
+            self.observe_size(index, left, samples.size());
+            // A step that ends at an event ends there but for the round-off of time.
+            let zero = self.sizes[index] * T::EPSILON * T::from_f64(AT_ZERO);
+            self.zeros[index] = zero.max(samples.round_off_of_time());
             let values = column(|node| self.at_end(along.ends, index, times[node], values[node]));
             if self.is_held(index, &values) {
                 self.next[index] = None;
@@ -288,8 +296,7 @@ impl<T: Real> Events<T> {
     /// A value of a function within a step, or zero at one of its ends where it is zero but for
     /// round-off: what switches there may hold it.
     fn at_end(&self, (start, end): (T, T), index: usize, t: T, value: T) -> T {
-        let zero = self.sizes[index] * T::EPSILON * T::from_f64(AT_ZERO);
-        match (t == start || t == end) && value.abs() <= zero {
+        match (t == start || t == end) && value.abs() <= self.zeros[index] {
             true => T::zero(),
             false => value,
         }
@@ -432,44 +439,6 @@ impl<T: Real> Along<'_, T> {
     ) -> Result<T, DynamicsError<T>> {
         Ok(self.values(events, t, on)?[index])
     }
-}
-
-fn largest<T: Real, const N: usize>(x: &SVector<T, N>) -> T {
-    x.iter().fold(T::zero(), |most: T, x| most.max(x.abs()))
-}
-
-/// How far coordinates and velocities may differ for a state to be the same.
-pub(super) fn same_state<T: Real, const N: usize>(state: &State<T, N>) -> [T; 2] {
-    let unit = T::EPSILON.powf(T::from_f64(SAME_STATE));
-    [largest(&state.q) * unit, largest(&state.v) * unit]
-}
-
-/// How much the functions change, by these values, where round-off moves coordinates and velocities
-/// by so much, one after the other: a state at which an event happened is no nearer to it.
-pub(super) fn round_off<T: Real, const N: usize>(
-    functions: Functions<'_, T, N>,
-    state: &State<T, N>,
-    values: &[T; ROOM],
-    [aside, faster]: [T; 2],
-) -> [T; ROOM] {
-    let mut changes = [T::zero(); ROOM];
-    let mut observe = |moved: &State<T, N>| {
-        let mut there = [T::zero(); ROOM];
-        functions(moved, &mut there);
-        for (change, (there, here)) in changes.iter_mut().zip(there.iter().zip(values)) {
-            *change += (*there - *here).abs();
-        }
-    };
-    let mut moved = *state;
-    for i in 0..N {
-        moved.q[i] += aside;
-        observe(&moved);
-        moved.q[i] = state.q[i];
-        moved.v[i] += faster;
-        observe(&moved);
-        moved.v[i] = state.v[i];
-    }
-    changes
 }
 
 /// The state at a time within a step; the ends are on the constraints already.

@@ -13,6 +13,7 @@ mod event;
 mod grid;
 mod observers;
 mod options;
+mod round_off;
 mod simultaneous;
 mod stepper;
 mod summary;

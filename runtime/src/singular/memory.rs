@@ -120,7 +120,7 @@ mod tests {
         ];
         let sizes = [
             [(3, 8 * R), (1, N * R), (2, N * N)],
-            [(9, R), (9, N), (0, 0)],
+            [(9, R), (14, N), (0, 0)],
         ];
         let shares = [decomposed, [(4, N * R), (5, N), (0, 0)]];
         for taken in [

@@ -1,0 +1,52 @@
+//! What round-off of a state makes of event functions.
+//!
+//! In:  event functions, a state.
+//! Out: how far coordinates and velocities may differ for the state to be the same; how much that
+//!      changes the functions.
+
+use super::event::{Functions, ROOM};
+use crate::{Real, State};
+use nalgebra::SVector;
+
+/// States are the same to this power of round-off, relative to their largest coordinate and velocity
+/// (2e-12 for `f64`): beside singular configurations a quarter of the digits is not told.
+const SAME_STATE: f64 = 0.75;
+
+/// The largest of some numbers.
+pub(super) fn largest<T: Real, const N: usize>(x: &SVector<T, N>) -> T {
+    x.iter().fold(T::zero(), |most: T, x| most.max(x.abs()))
+}
+
+/// How far coordinates and velocities may differ for a state to be the same.
+pub(super) fn same_state<T: Real, const N: usize>(state: &State<T, N>) -> [T; 2] {
+    let unit = T::EPSILON.powf(T::from_f64(SAME_STATE));
+    [largest(&state.q) * unit, largest(&state.v) * unit]
+}
+
+/// How much the functions change, by these values, where round-off moves coordinates and velocities
+/// by so much, one after the other: a state at which an event happened is no nearer to it.
+pub(super) fn round_off<T: Real, const N: usize>(
+    functions: Functions<'_, T, N>,
+    state: &State<T, N>,
+    values: &[T; ROOM],
+    [aside, faster]: [T; 2],
+) -> [T; ROOM] {
+    let mut changes = [T::zero(); ROOM];
+    let mut observe = |moved: &State<T, N>| {
+        let mut there = [T::zero(); ROOM];
+        functions(moved, &mut there);
+        for (change, (there, here)) in changes.iter_mut().zip(there.iter().zip(values)) {
+            *change += (*there - *here).abs();
+        }
+    };
+    let mut moved = *state;
+    for i in 0..N {
+        moved.q[i] += aside;
+        observe(&moved);
+        moved.q[i] = state.q[i];
+        moved.v[i] += faster;
+        observe(&moved);
+        moved.v[i] = state.v[i];
+    }
+    changes
+}
