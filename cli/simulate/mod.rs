@@ -70,13 +70,8 @@ pub fn simulate_for(arguments: &Simulate, live: Option<&Live>) -> Result<(), Com
     let structure = mechanism.structure();
     plan.columns = columns.clone();
     plan.checkpoints = checkpoints::checkpoints((arguments, &case), &plan, &changes, structure)?;
-    let mut record = Record::open(
-        arguments,
-        structure,
-        &columns,
-        None,
-        choices::absolute(&plan),
-    )?;
+    let absolute = choices::absolute(&plan);
+    let mut record = Record::open(arguments, structure, &columns, None, absolute)?;
     let shown = picture::shown(arguments, &columns, structure)?;
     plan.columns = shown.columns.clone();
     let checkpoints = plan.checkpoints.as_ref();
@@ -90,6 +85,7 @@ pub fn simulate_for(arguments: &Simulate, live: Option<&Live>) -> Result<(), Com
         Ok(report) => Some(report),
         Err(stopped) => stopped.report.as_deref(),
     };
+    let error = result.as_ref().err().map(|stopped| &stopped.error);
     let settings = &plan.options.settings;
     let picture = Picture {
         arguments,
@@ -100,10 +96,7 @@ pub fn simulate_for(arguments: &Simulate, live: Option<&Live>) -> Result<(), Com
         summary: report
             .map(|report| summary::quantities(report, structure, settings))
             .unwrap_or_default(),
-        error: result
-            .as_ref()
-            .err()
-            .map(|stopped| stopped.error.to_string()),
+        error: error.map(ToString::to_string),
         live,
         module: module.as_deref().map(|module| (module, &changes)),
     };
@@ -112,7 +105,6 @@ pub fn simulate_for(arguments: &Simulate, live: Option<&Live>) -> Result<(), Com
         say(summary::summary(report, structure, settings).trim_end());
     }
     if arguments.json {
-        let error = result.as_ref().err().map(|stopped| &stopped.error);
         let object = summary::json(report.unwrap_or(&Report::default()), structure, error);
         print(&format!("{object:#}\n"))?;
     }

@@ -26,7 +26,7 @@ const ITERATIONS: usize = 8;
 const LOOK: f64 = 1e-3;
 /// A gradient that is smaller by this factor vanishes.
 const VANISHED: f64 = 1e-3;
-/// Directions along which the constraint is to curve to one side.
+/// Directions along which the constraint is to curve to one side, besides the coordinates.
 const DIRECTIONS: usize = 4;
 /// A curvature of this part of the largest is round-off.
 const STRAIGHT: f64 = 1e-6;
@@ -109,10 +109,16 @@ impl<T: Real> Around<'_, T> {
         workspace.scope(|workspace| {
             let [direction, curvature] = [(); 2].map(|()| workspace.numbers(self.here.len()));
             let (mut least, mut most) = (T::zero(), T::zero());
-            for number in 0..DIRECTIONS {
+            // Along each coordinate alone, and along all of them with several signs.
+            let n = direction.len();
+            for number in 0..n + DIRECTIONS {
                 for (j, entry) in direction.iter_mut().enumerate() {
-                    let is_odd = number > 0 && (j >> (number - 1)) % 2 == 1;
-                    *entry = if is_odd { -T::one() } else { T::one() };
+                    *entry = match number.checked_sub(n) {
+                        None => T::from_f64(f64::from(u8::from(j == number))),
+                        Some(0) => T::one(),
+                        Some(place) if (j >> (place - 1)) % 2 == 1 => -T::one(),
+                        Some(_) => T::one(),
+                    };
                 }
                 self.curvature(direction, curvature);
                 let along = dot(direction, curvature);
@@ -151,6 +157,9 @@ impl<T: Real> Around<'_, T> {
                 self.curvature(rest, of_rest);
                 let before = along;
                 along = dot(rest, of_rest);
+                if along * before < T::zero() {
+                    return false;
+                }
                 for (old, new) in [(&mut *step, &*rest), (&mut *of_step, &*of_rest)] {
                     for (old, new) in old.iter_mut().zip(new) {
                         *old = *new + along / before * *old;

@@ -46,6 +46,24 @@ pub(super) struct Scales<'a, T> {
     pub(super) reach: &'a [T],
 }
 
+/// Gives a row that is small at a position because the coordinates are large, and not since it is
+/// near a singular configuration, the norm and the reach that it has `here`.
+fn keep_near_extrema<T: Real>(
+    (norms, reach): (&mut [T], &mut [T]),
+    here: &[T],
+    equations: &mut dyn Equations<T>,
+    place: (T, &[T]),
+    workspace: &Workspace<'_, T>,
+) {
+    let n_rows = norms.len();
+    for k in 0..n_rows {
+        let is_small = here[k] > T::zero() && here[k] < norms[k] * T::from_f64(VANISHING);
+        if is_small && workspace.scope(|inner| is_near_extremum(equations, place, k, inner)) {
+            (norms[k], reach[k]) = (here[k], here[n_rows + k]);
+        }
+    }
+}
+
 impl<'a, T: Real> Scales<'a, T> {
     /// Measures the mechanism around a position, by the coordinates that are not held, if
     /// there are any: where masses are very different, the held ones may be the lightest, and
@@ -94,14 +112,7 @@ impl<'a, T: Real> Scales<'a, T> {
                 here[n_rows..].copy_from_slice(reach);
             }
         }
-        // A row that is small here because the coordinates are large, and not near a singular
-        // configuration, has the size that it has here.
-        for k in 0..n_rows {
-            let is_small = here[k] > T::zero() && here[k] < norms[k] * T::from_f64(VANISHING);
-            if is_small && workspace.scope(|inner| is_near_extremum(equations, (t, q), k, inner)) {
-                (norms[k], reach[k]) = (here[k], here[n_rows + k]);
-            }
-        }
+        keep_near_extrema((norms, reach), here, equations, (t, q), workspace);
         for norm in norms.iter_mut() {
             *norm = inverse(*norm);
         }

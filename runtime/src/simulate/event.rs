@@ -16,7 +16,7 @@
 //! All of that is over times and values, and compiled once for mechanisms of all sizes.
 
 use super::SimulateError;
-use super::round_off::{largest, round_off, same_state};
+use super::event_functions::{Functions, ROOM, largest, round_off, same_state};
 use crate::crossing::{Left, NODES, SAME_TIME, Samples, first_crossing, nodes, noise, told, zero};
 use crate::linalg::column;
 use crate::once::compiled_once;
@@ -25,16 +25,11 @@ use crate::{
     Direction, DynamicsError, Event, Occurrence, OtherBranch, Probe, Real, State, Step, Watched,
 };
 
-/// Events a mechanism may have.
-pub(super) const ROOM: usize = 64;
 /// A function is clear of zero beyond this part of its size in a step, even if it goes back.
 const CLEARLY: f64 = 1e-6;
 
 /// At the ends of a step a function is zero within this many units of the round-off of its size.
 const AT_ZERO: f64 = 32.0;
-
-/// Writes the event functions of a mechanism at a state.
-pub(super) type Functions<'a, T, const N: usize> = &'a dyn Fn(&State<T, N>, &mut [T]);
 
 /// Watches the event functions of a mechanism.
 #[derive(Clone, Debug)]

@@ -3,7 +3,8 @@
 //! In:  accepted steps.
 //! Out: whether the run goes on.
 
-use super::event::{Events, Functions};
+use super::event::Events;
+use super::event_functions::Functions;
 use super::{Audit, Options, Origin, SimulateError, Summary};
 use crate::integrator::Inside;
 use crate::singular::Found;

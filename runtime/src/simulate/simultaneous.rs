@@ -6,8 +6,8 @@
 //! A run that goes on from where an event ended another doesn't tell that event again, nor others
 //! that happen there, so that those are told before the run ends.
 
-use super::event::{Along, Events, Functions, On, ROOM, state_at};
-use super::round_off::{round_off, same_state};
+use super::event::{Along, Events, On, state_at};
+use super::event_functions::{Functions, ROOM, round_off, same_state};
 use crate::crossing::SAME_TIME;
 use crate::once::compiled_once;
 use crate::{DynamicsError, Probe, Real, State, Step};

@@ -1,12 +1,17 @@
-//! What round-off of a state makes of event functions.
+//! Event functions at a state, and what round-off makes of them.
 //!
 //! In:  event functions, a state.
 //! Out: how far coordinates and velocities may differ for the state to be the same; how much that
 //!      changes the functions.
 
-use super::event::{Functions, ROOM};
 use crate::{Real, State};
 use nalgebra::SVector;
+
+/// Events a mechanism may have.
+pub(super) const ROOM: usize = 64;
+
+/// Writes the event functions of a mechanism at a state.
+pub(super) type Functions<'a, T, const N: usize> = &'a dyn Fn(&State<T, N>, &mut [T]);
 
 /// States are the same to this power of round-off, relative to their largest coordinate and velocity
 /// (2e-12 for `f64`): beside singular configurations a quarter of the digits is not told.
