@@ -28,6 +28,12 @@ pub fn vacant(path: &Path) -> Result<(), CommandError> {
 /// A folder that is new, or that an earlier export has made.
 pub struct Folder(PathBuf);
 
+/// Whether a path leads to something in the folder that it begins in, or below.
+pub fn is_inside(path: &Path) -> bool {
+    let mut parts = path.components();
+    parts.all(|part| matches!(part, Component::Normal(_)))
+}
+
 impl Folder {
     /// Makes a folder, or takes one that is empty or was exported before, without the files of
     /// that export.
@@ -54,11 +60,8 @@ impl Folder {
     /// crate. What somebody else has put there stays.
     fn empty(&self) -> Result<(), CommandError> {
         let written = fs::read_to_string(self.0.join(MARK)).unwrap_or_default();
-        let inside = |name: &&Path| {
-            let mut parts = name.components();
-            parts.all(|part| matches!(part, Component::Normal(_)))
-        };
-        for name in written.lines().skip(1).map(Path::new).filter(inside) {
+        let names = written.lines().skip(1).map(Path::new);
+        for name in names.filter(|name| is_inside(name)) {
             let path = self.0.join(name);
             if path.is_file() {
                 fs::remove_file(&path).map_err(|error| CommandError::write(&path, error))?;

@@ -5,12 +5,12 @@
 //! Out: the same in a folder, manifests without a workspace; the description with the files
 //!      that it reads.
 
-use super::folder::Folder;
+use super::folder::{Folder, is_inside};
 use crate::compiled::sources::SOURCES;
 use crate::description::{Description, read};
 use crate::error::CommandError;
 use bricard_codegen::Compiled;
-use std::path::{Component, Path};
+use std::path::Path;
 
 /// Where they are in an exported crate.
 pub const PLACE: &str = "bricard";
@@ -38,11 +38,8 @@ pub fn described(
     let mut files = vec![(format!("{module}.mech"), subject.source.clone())];
     let above = subject.file.parent().unwrap_or(Path::new(""));
     for path in &compiled.files {
-        let name = path.strip_prefix(above).ok().filter(|name| {
-            let mut parts = name.components();
-            parts.all(|part| matches!(part, Component::Normal(_)))
-        });
-        if let Some(name) = name {
+        let name = path.strip_prefix(above).ok();
+        if let Some(name) = name.filter(|name| is_inside(name)) {
             // Other systems know `/` as well.
             let name = name.to_string_lossy().replace('\\', "/");
             files.push((name, read(path)?));

@@ -14,7 +14,7 @@
 //! (1973), chapter 4.
 
 use crate::Real;
-use crate::linalg::column;
+use crate::linalg::{column, largest};
 
 /// Points of an interval at which a function is sampled, both ends included.
 pub(crate) const NODES: usize = 9;
@@ -33,7 +33,7 @@ const COSINES: [f64; NODES] = [
     -1.0,
 ];
 /// Times closer than this multiple of the round-off of time are one.
-pub(crate) const SAME_TIME: f64 = 8.0;
+const SAME_TIME: f64 = 8.0;
 /// What coefficients are off by, relative to the largest sample.
 const ROUND_OFF: f64 = 1e-15;
 /// Every sample.
@@ -70,6 +70,11 @@ pub(crate) fn noise<T: Real>(tolerance: Option<T>) -> T {
 /// is zero, as the velocity of what dry friction holds.
 pub(crate) fn told<T: Real>(noise: T) -> T {
     (noise * T::from_f64(TOLD)).min(T::from_f64(SURELY_TOLD))
+}
+
+/// How far times may differ and be the same, at a time (s).
+pub(crate) fn moment<T: Real>(t: T) -> T {
+    T::EPSILON * T::from_f64(SAME_TIME) * t.abs()
 }
 
 /// Samples of a function on an interval.
@@ -120,13 +125,12 @@ impl<T: Real> Samples<T> {
 
     /// The largest of them.
     pub(crate) fn size(&self) -> T {
-        let values = self.values.iter();
-        values.fold(T::zero(), |most: T, x| most.max(x.abs()))
+        largest(&self.values)
     }
 
     /// Whether the function is zero at the beginning, but for the round-off of the time.
     pub(crate) fn begins_at_zero(&self) -> bool {
-        let moment = T::EPSILON * T::from_f64(SAME_TIME) * self.times[0].abs();
+        let moment = moment(self.times[0]);
         let rise = (self.values[1] - self.values[0]).abs();
         self.values[0].abs() * (self.times[1] - self.times[0]) <= rise * moment
     }
@@ -134,7 +138,7 @@ impl<T: Real> Samples<T> {
     /// How much the round-off of time changes the function at the ends.
     pub(crate) fn round_off_of_time(&self) -> T {
         let ((from, to), steepest) = (self.ends(), self.slope(0).max(self.slope(DEGREE - 1)));
-        T::EPSILON * T::from_f64(SAME_TIME) * from.abs().max(to.abs()) * steepest
+        moment(from.abs().max(to.abs())) * steepest
     }
 
     /// How steep the function is between a sample and the next.

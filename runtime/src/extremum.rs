@@ -13,7 +13,7 @@
 
 use crate::Real;
 use crate::equations::Equations;
-use crate::linalg::{Workspace, add_scaled, dot};
+use crate::linalg::{Workspace, add_scaled, dot, largest, sign_of};
 use crate::natural_size::NaturalSizes;
 use crate::tolerance::{critical, round_off};
 
@@ -53,12 +53,7 @@ pub(crate) fn is_near_extremum<T: Real>(
     workspace: &Workspace<'_, T>,
 ) -> bool {
     let [sizes, here, moved, change] = [(); 4].map(|()| workspace.numbers(q.len()));
-    let structure = equations.structure();
-    let natural = NaturalSizes::measure(structure, q);
-    for (j, size) in sizes.iter_mut().enumerate() {
-        let kind = structure.kind(j);
-        *size = kind.and_then(|kind| natural.of(kind)).unwrap_or(T::one());
-    }
+    NaturalSizes::write_all(equations.structure(), q, sizes);
     equations.locate(t, q);
     load_gradient(equations, row, sizes, here);
     let mut around = Around {
@@ -73,12 +68,10 @@ pub(crate) fn is_near_extremum<T: Real>(
     if !around.curves_to_one_side(workspace) || !around.solve(change, workspace) {
         return false;
     }
-    let vanishes = {
-        around.go(T::one(), change);
-        let there = workspace.numbers(change.len());
-        load_gradient(around.equations, row, around.sizes, there);
-        largest(there) <= most * T::from_f64(VANISHED)
-    };
+    around.go(T::one(), change);
+    let there = workspace.numbers(change.len());
+    load_gradient(around.equations, row, sizes, there);
+    let vanishes = largest(there) <= most * T::from_f64(VANISHED);
     let left = around.equations.constraints().residual[row].abs();
     vanishes && left > critical::<T>() * round_off::<T>() * most
 }
@@ -114,10 +107,9 @@ impl<T: Real> Around<'_, T> {
             for number in 0..n + DIRECTIONS {
                 for (j, entry) in direction.iter_mut().enumerate() {
                     *entry = match number.checked_sub(n) {
-                        None => T::from_f64(f64::from(u8::from(j == number))),
-                        Some(0) => T::one(),
-                        Some(place) if (j >> (place - 1)) % 2 == 1 => -T::one(),
-                        Some(_) => T::one(),
+                        Some(pattern) => T::from_f64(sign_of(pattern, j)),
+                        None if j == number => T::one(),
+                        None => T::zero(),
                     };
                 }
                 self.curvature(direction, curvature);
@@ -169,11 +161,6 @@ impl<T: Real> Around<'_, T> {
             true
         })
     }
-}
-
-/// The largest size of some numbers.
-fn largest<T: Real>(x: &[T]) -> T {
-    x.iter().fold(T::zero(), |most, x| most.max(x.abs()))
 }
 
 /// Takes the gradient of a row where the constraints were evaluated last, by coordinates relative

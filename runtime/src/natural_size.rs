@@ -1,9 +1,15 @@
-//! How large coordinates are by nature.
+//! How large and how heavy coordinates are by nature.
 //!
-//! In:  the kinds of coordinates, a position.
-//! Out: [`NaturalSizes`]: one for an angle, and for others the largest of their kind.
+//! In:  the kinds of coordinates, a position, the mass matrix there.
+//! Out: [`NaturalSizes`]: one for an angle, and for others the largest of their kind;
+//!      [`LeastInertia`], below which they have none to speak of.
 
 use crate::{Real, Structure};
+
+/// The square root of the least inertia of a coordinate, relative to the largest of its kind. A
+/// body that is not turned has Euler parameters that are massless to round-off;
+/// their entries would dominate the rows that contain them, and all others be round-off.
+const LIGHTEST: f64 = 1e-3;
 
 /// What a coordinate measures.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -62,5 +68,39 @@ impl<T: Real> NaturalSizes<T> {
     pub(crate) fn of(&self, kind: Kind) -> Option<T> {
         let size = self.sizes[kind as usize];
         (size > T::zero()).then_some(size)
+    }
+
+    /// Writes those of all coordinates, one where nothing tells them.
+    pub(crate) fn write_all(structure: &Structure, q: &[T], sizes: &mut [T]) {
+        let natural = Self::measure(structure, q);
+        for (coordinate, size) in sizes.iter_mut().enumerate() {
+            let kind = structure.kind(coordinate);
+            *size = kind.and_then(|kind| natural.of(kind)).unwrap_or(T::one());
+        }
+    }
+}
+
+/// The inertia below which coordinates of each kind have none to speak of.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct LeastInertia<T>([T; Kind::COUNT]);
+
+impl<T: Real> LeastInertia<T> {
+    /// Measures it by a mass matrix of `n` coordinates.
+    pub(crate) fn measure(structure: &Structure, mass: &[T], n: usize) -> Self {
+        let mut largest = [T::zero(); Kind::COUNT];
+        for (coordinate, inertia) in mass.iter().step_by(n + 1).enumerate() {
+            let largest = &mut largest[Self::place(structure, coordinate)];
+            *largest = largest.max(*inertia);
+        }
+        Self(largest.map(|largest| largest * T::from_f64(LIGHTEST * LIGHTEST)))
+    }
+
+    /// That of the kind of a coordinate.
+    pub(crate) fn of(&self, structure: &Structure, coordinate: usize) -> T {
+        self.0[Self::place(structure, coordinate)]
+    }
+
+    fn place(structure: &Structure, coordinate: usize) -> usize {
+        structure.kind(coordinate).unwrap_or(Kind::Angle) as usize
     }
 }

@@ -10,16 +10,11 @@
 use crate::equations::Equations;
 use crate::extremum::{VANISHING, is_near_extremum};
 use crate::linalg::Workspace;
-use crate::natural_size::{Kind, NaturalSizes};
+use crate::natural_size::{LeastInertia, NaturalSizes};
 use crate::{ConstraintRow, Real, Structure};
 
 /// How far away, in sizes of the coordinates, the rows are measured.
 const NEIGHBOURHOOD: [f64; 3] = [0.0, 0.3, -0.2];
-
-/// The square root of the least inertia of a coordinate, relative to the largest of its kind. A
-/// body that is not turned has Euler parameters that are massless to round-off;
-/// their entries would dominate the rows that contain them, and all others be round-off.
-const LIGHTEST: f64 = 1e-3;
 
 /// Held values that could reduce an error by this part of what the most
 /// influential one could are named as conflicting.
@@ -77,7 +72,7 @@ impl<'a, T: Real> Scales<'a, T> {
         let n = q.len();
         let (sizes, columns) = (workspace.numbers(n), workspace.numbers(n));
         let structure = equations.structure();
-        measure_sizes(structure, q, sizes);
+        NaturalSizes::write_all(structure, q, sizes);
         equations.locate(t, q);
         let at = equations.constraints();
         let n_rows = at.residual.len();
@@ -180,16 +175,10 @@ impl<'a, T: Real> Scales<'a, T> {
 /// What coordinates are divided by to have an inertia of one; those that are nearly massless
 /// have a part of the largest of their kind.
 fn measure_inertia<T: Real>(mass: &[T], structure: &Structure, columns: &mut [T]) {
-    let n = columns.len();
-    let inertia = |i: usize| mass[i * (n + 1)].max(T::zero());
-    let kind = |i: usize| structure.kind(i).unwrap_or(Kind::Angle) as usize;
-    let mut largest = [T::zero(); Kind::COUNT];
-    for i in 0..n {
-        largest[kind(i)] = largest[kind(i)].max(inertia(i));
-    }
-    let least = largest.map(|largest| largest * T::from_f64(LIGHTEST * LIGHTEST));
-    for (i, column) in columns.iter_mut().enumerate() {
-        *column = inverse(inertia(i).max(least[kind(i)]).sqrt());
+    let least = LeastInertia::measure(structure, mass, columns.len());
+    let inertia = mass.iter().step_by(columns.len() + 1);
+    for (i, (column, inertia)) in columns.iter_mut().zip(inertia).enumerate() {
+        *column = inverse(inertia.max(least.of(structure, i)).sqrt());
     }
 }
 
@@ -198,15 +187,6 @@ fn inverse<T: Real>(x: T) -> T {
     match x > T::zero() {
         true => T::one() / x,
         false => T::one(),
-    }
-}
-
-/// How large each coordinate is, at least.
-fn measure_sizes<T: Real>(structure: &Structure, q: &[T], sizes: &mut [T]) {
-    let natural = NaturalSizes::measure(structure, q);
-    for (i, size) in sizes.iter_mut().enumerate() {
-        let known = structure.kind(i).and_then(|kind| natural.of(kind));
-        *size = known.unwrap_or(T::one());
     }
 }
 

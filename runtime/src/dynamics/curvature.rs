@@ -9,16 +9,14 @@
 use super::Core;
 use super::erased::Constrained;
 use crate::equations::At;
-use crate::linalg::{Workspace, norm, solve_upper};
+use crate::linalg::{Workspace, norm, sign_of, solve_upper};
+use crate::natural_size::LeastInertia;
 use crate::once::compiled_once;
 use crate::tolerance::{difference, excusable};
 use crate::{Mechanism, Real, State};
 
 /// How many displacements are tried.
 const DISPLACEMENTS: usize = 4;
-/// Coordinates with this part of the largest inertia of their kind have none to speak of: of Euler
-/// parameters one is nearly one at some positions, and then has only round-off.
-const LIGHTEST: f64 = 1e-6;
 /// How often the distance of the displacements is made shorter. Where rows are unit vectors, those
 /// that are too long tell nothing but their own length.
 const PASSES: usize = 3;
@@ -94,17 +92,14 @@ fn displace<T: Real>(
     moved: &mut [T],
 ) {
     let (mass, structure) = (solver.constraints().mass, solver.structure());
-    let inertia = |j: usize| mass[j * (q.len() + 1)];
-    for (j, moved) in moved.iter_mut().enumerate() {
-        let same = (0..q.len()).filter(|other| structure.kind(*other) == structure.kind(j));
-        let heaviest = same.fold(T::zero(), |most, other| most.max(inertia(other)));
-        let step = match inertia(j) > heaviest * T::from_f64(LIGHTEST) {
-            true => distance / inertia(j).sqrt(),
+    let least = LeastInertia::measure(structure, mass, q.len());
+    let inertia = mass.iter().step_by(q.len() + 1);
+    for (j, ((moved, q), inertia)) in moved.iter_mut().zip(q).zip(inertia).enumerate() {
+        let step = match *inertia > least.of(structure, j) {
+            true => distance / inertia.sqrt(),
             false => T::zero(),
         };
-        // One sign for all, and then changes of sign at every, every other, and every fourth one.
-        let is_odd = displacement > 0 && (j >> (displacement - 1)) % 2 == 1;
-        *moved = if is_odd { q[j] - step } else { q[j] + step };
+        *moved = T::from_f64(sign_of(displacement, j)).mul_add(step, *q);
     }
 }
 

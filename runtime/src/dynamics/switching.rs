@@ -16,7 +16,7 @@
 //! 137–165 (discontinuity locking).
 
 use super::conditions::{Aim, Burst, Decided, round_off_of};
-use crate::crossing::{Left, NODES, SAME_TIME, Samples, first_crossing, nodes, told, zero};
+use crate::crossing::{Left, NODES, Samples, first_crossing, moment, nodes, told, zero};
 use crate::once::compiled_once;
 use crate::{Discontinuity, DynamicsError, Real, Sides, Switch, Switches, Switching, Watched};
 
@@ -57,7 +57,7 @@ impl<T: Real> dyn Motion<T> + '_ {
     /// start.
     pub(crate) fn switch(&mut self) -> Result<Switching<T>, DynamicsError<T>> {
         let (start, end) = self.ends();
-        let same = T::EPSILON * T::from_f64(SAME_TIME) * start.abs().max(end.abs());
+        let same = moment(start.abs().max(end.abs()));
         let decided = self.decided();
         decided.made = Some((decided.sides, decided.sliding));
         decided.attempt = decided.attempt.max(end - start);

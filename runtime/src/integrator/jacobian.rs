@@ -7,7 +7,7 @@
 //! fast it converges, not what it converges to.
 
 use crate::equations::At;
-use crate::linalg::Workspace;
+use crate::linalg::{Workspace, largest};
 use crate::{DynamicsError, Real};
 
 /// How far coordinates and velocities are varied, relative to their size, as a
@@ -66,7 +66,7 @@ pub(super) fn differentiate<T: Real>(
 /// The least that entries are taken to be: the largest entry, as one that is zero has no size of
 /// its own; but at most one unit, as the others may be of another kind and larger by far.
 fn least_size<T: Real>(x: &[T]) -> T {
-    let most = x.iter().fold(T::zero(), |most: T, x| most.max(x.abs()));
+    let most = largest(x);
     if most > T::zero() {
         most.min(T::one())
     } else {

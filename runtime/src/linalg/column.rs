@@ -70,6 +70,21 @@ pub(crate) fn norm<T: Real>(a: &[T]) -> T {
     dot(a, a).sqrt()
 }
 
+/// The largest absolute entry.
+pub(crate) fn largest<T: Real>(entries: &[T]) -> T {
+    let entries = entries.iter();
+    entries.fold(T::zero(), |most: T, entry| most.max(entry.abs()))
+}
+
+/// The sign of an entry in one of the patterns that tell directions apart: one sign for all, and
+/// then changes of sign at every, every other, every fourth one, and so on.
+pub(crate) fn sign_of(pattern: usize, entry: usize) -> f64 {
+    match pattern > 0 && (entry >> (pattern - 1)) % 2 == 1 {
+        true => -1.0,
+        false => 1.0,
+    }
+}
+
 /// `target += factor · column`.
 #[inline]
 pub(crate) fn add_scaled<T: Real>(target: &mut [T], factor: T, column: &[T]) {

@@ -41,8 +41,8 @@ pub(crate) use cholesky::{
     multiply_upper_transposed, set_units, solve_upper, solve_upper_transposed,
 };
 pub(crate) use column::{
-    add_product, add_scaled, column, count_above, dot, is_finite, is_zero, norm, pair, scale,
-    scaled,
+    add_product, add_scaled, column, count_above, dot, is_finite, is_zero, largest, norm, pair,
+    scale, scaled, sign_of,
 };
 pub(crate) use column_ordering::order_by_first_row;
 pub(crate) use complement::{orthonormal, orthonormalise, remove};

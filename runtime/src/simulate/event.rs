@@ -16,9 +16,9 @@
 //! All of that is over times and values, and compiled once for mechanisms of all sizes.
 
 use super::SimulateError;
-use super::event_functions::{Functions, ROOM, largest, round_off, same_state};
-use crate::crossing::{Left, NODES, SAME_TIME, Samples, first_crossing, nodes, noise, told, zero};
-use crate::linalg::column;
+use super::event_functions::{Functions, ROOM, round_off, same_state};
+use crate::crossing::{Left, NODES, Samples, first_crossing, moment, nodes, noise, told, zero};
+use crate::linalg::{column, largest};
 use crate::once::compiled_once;
 use crate::pace::Pace;
 use crate::{
@@ -179,7 +179,7 @@ impl<T: Real> Events<T> {
     fn begin_step<const N: usize>(&mut self, functions: Functions<'_, T, N>, step: &Step<T, N>) {
         let (start, length) = (step.start(), step.end().t - step.start().t);
         // Where all coordinates are zero one unit stands for them.
-        let size = match largest(&start.q) {
+        let size = match largest(start.q.as_slice()) {
             none if none == T::zero() => T::one(),
             size => size,
         };
@@ -395,7 +395,7 @@ impl<T: Real> Events<T> {
         let noise = self.round_off[index].max(self.noise * self.sizes[index]);
         let to = along.ends.1;
         let mut value = |t| along.value(self.events, t, On::Interpolant, index);
-        let same_time = T::EPSILON * T::from_f64(SAME_TIME) * from.abs().max(to.abs());
+        let same_time = moment(from.abs().max(to.abs()));
         let mut pause = same_time.max(told(self.noise) * self.pace.longest());
         while from + pause + pause < to {
             let (begin, end) = (from + pause, from + pause + pause);

@@ -4,8 +4,8 @@
 //! Out: how far coordinates and velocities may differ for the state to be the same; how much that
 //!      changes the functions.
 
+use crate::linalg::largest;
 use crate::{Real, State};
-use nalgebra::SVector;
 
 /// Events a mechanism may have.
 pub(super) const ROOM: usize = 64;
@@ -17,15 +17,10 @@ pub(super) type Functions<'a, T, const N: usize> = &'a dyn Fn(&State<T, N>, &mut
 /// (2e-12 for `f64`): beside singular configurations a quarter of the digits is not told.
 const SAME_STATE: f64 = 0.75;
 
-/// The largest of some numbers.
-pub(super) fn largest<T: Real, const N: usize>(x: &SVector<T, N>) -> T {
-    x.iter().fold(T::zero(), |most: T, x| most.max(x.abs()))
-}
-
 /// How far coordinates and velocities may differ for a state to be the same.
 pub(super) fn same_state<T: Real, const N: usize>(state: &State<T, N>) -> [T; 2] {
     let unit = T::EPSILON.powf(T::from_f64(SAME_STATE));
-    [largest(&state.q) * unit, largest(&state.v) * unit]
+    [&state.q, &state.v].map(|x| largest(x.as_slice()) * unit)
 }
 
 /// How much the functions change, by these values, where round-off moves coordinates and velocities

@@ -8,7 +8,7 @@
 
 use super::event::{Along, Events, On, state_at};
 use super::event_functions::{Functions, ROOM, round_off, same_state};
-use crate::crossing::SAME_TIME;
+use crate::crossing::moment;
 use crate::once::compiled_once;
 use crate::{DynamicsError, Probe, Real, State, Step};
 
@@ -46,7 +46,7 @@ impl<T: Real> Events<T> {
         (here, round_off): (&[T; ROOM], &[T; ROOM]),
     ) -> Result<(), DynamicsError<T>> {
         let start = along.ends.0;
-        let same_time = T::EPSILON * T::from_f64(SAME_TIME) * start.abs();
+        let same_time = moment(start);
         for index in 0..self.events.len() {
             let Some(next) = self.next[index] else {
                 continue;

@@ -1,6 +1,8 @@
 //! Descriptions of one mechanism in other units, or at another place, are the same mechanism.
 
-use bricard_runtime::{Method, Options, State, StepControl, Whole, assemble, simulate};
+use bricard_runtime::{
+    Interface, Method, Options, Start, State, StepControl, Summary, Whole, assemble, simulate,
+};
 use bricard_singular::descriptions::belt_parallelogram::BeltParallelogram;
 use bricard_singular::descriptions::far_circle::FarCircle;
 use bricard_singular::descriptions::far_parallelogram::FarParallelogram;
@@ -8,13 +10,26 @@ use bricard_singular::descriptions::sharp_corner::SharpCorner;
 use bricard_singular::descriptions::sized_parallelogram::SizedParallelogram;
 use bricard_singular::descriptions::unitless::Unitless;
 
+/// Where a run begins, and what comes of it.
+fn ran<const N: usize, const R: usize>(
+    mechanism: &dyn Whole<f64, N, R>,
+    guess: &Start<f64, N>,
+    options: &Options<f64>,
+    name: &str,
+) -> (State<f64, N>, Summary<f64, N>) {
+    let start =
+        assemble(mechanism, guess, 0.0).unwrap_or_else(|failure| panic!("{name}: {failure}"));
+    let ran = simulate(mechanism, &start, options, &mut []);
+    (
+        start,
+        ran.unwrap_or_else(|failure| panic!("{name}: {failure}")),
+    )
+}
+
 /// Where it is after some passages, in lengths of its links, and how many those were.
 fn moved(l: f64) -> ([f64; 4], Option<u64>) {
     let mut mechanism = Unitless::<f64>::default();
     mechanism.parameters.l = l;
-    let mechanism: &dyn Whole<f64, 4, 3> = &mechanism;
-    let start: State<f64, 4> = assemble(mechanism, &mechanism.start(), 0.0)
-        .unwrap_or_else(|failure| panic!("length {l:e}: {failure}"));
     let control = StepControl::Adaptive {
         relative: 1e-9,
         absolute: 1e-9 * l,
@@ -23,8 +38,8 @@ fn moved(l: f64) -> ([f64; 4], Option<u64>) {
         step_control: control,
         ..Options::dop853(5.0, 1e-9)
     };
-    let ran = simulate(mechanism, &start, &options, &mut []);
-    let summary = ran.unwrap_or_else(|failure| panic!("length {l:e}: {failure}"));
+    let name = format!("length {l:e}");
+    let (_, summary) = ran::<4, 3>(&mechanism, &mechanism.start(), &options, &name);
     ((summary.end.q / l).into(), summary.passages)
 }
 
@@ -47,11 +62,8 @@ fn lengths_without_a_unit_may_be_of_any_size() {
 fn bead(far: f64) -> [f64; 2] {
     let mut mechanism = FarCircle::<f64>::default();
     mechanism.parameters.far = far;
-    let mechanism: &dyn Whole<f64, 2, 1> = &mechanism;
-    let start: State<f64, 2> = assemble(mechanism, &mechanism.start(), 0.0)
-        .unwrap_or_else(|failure| panic!("{far:e} m off: {failure}"));
-    let ran = simulate(mechanism, &start, &Options::dop853(4.0, 1e-12), &mut []);
-    let summary = ran.unwrap_or_else(|failure| panic!("{far:e} m off: {failure}"));
+    let (options, name) = (Options::dop853(4.0, 1e-12), format!("{far:e} m off"));
+    let (_, summary) = ran::<2, 1>(&mechanism, &mechanism.start(), &options, &name);
     assert_eq!(summary.counters.beside_accelerations, 0, "{far:e} m off");
     [summary.end.q[0] - far, summary.end.q[1]]
 }
@@ -75,16 +87,13 @@ fn a_loop_may_be_far_from_the_origin() {
     let moved = |far: f64, method, tolerance| {
         let mut mechanism = FarParallelogram::<f64>::default();
         mechanism.parameters.far = far;
-        let mechanism: &dyn Whole<f64, 4, 3> = &mechanism;
-        let start = assemble(mechanism, &mechanism.start(), 0.0)
-            .unwrap_or_else(|failure| panic!("{far:e} m off: {failure}"));
         let options = Options {
             method,
             ..Options::dop853(3.0, tolerance)
         };
-        let ran = simulate(mechanism, &start, &options, &mut []);
-        let summary = ran.unwrap_or_else(|failure| panic!("{far:e} m off: {failure}"));
-        assert_eq!(summary.passages, Some(6), "{far:e} m off");
+        let name = format!("{far:e} m off");
+        let (_, summary) = ran::<4, 3>(&mechanism, &mechanism.start(), &options, &name);
+        assert_eq!(summary.passages, Some(6), "{name}");
         summary.end.q.map(|q| q - far)
     };
     let wanted = moved(0.0, Method::Dop853, 1e-12);
@@ -110,16 +119,13 @@ fn loops_may_be_small_and_light() {
         let (length, mass) = powers(l, m);
         let mut mechanism = SizedParallelogram::<f64>::default();
         (mechanism.parameters.l, mechanism.parameters.m) = (length, mass);
-        let mechanism: &dyn Whole<f64, 3, 2> = &mechanism;
-        let start = assemble(mechanism, &mechanism.start(), 0.0).expect("a start");
         for method in [Method::Dop853, Method::Dp5, Method::Radau5] {
             let name = format!("length 2^{l}, mass 2^{m}, {method:?}");
             let options = Options {
                 method,
                 ..Options::dop853(0.02, 1e-9)
             };
-            let ran = simulate(mechanism, &start, &options, &mut []);
-            let summary = ran.unwrap_or_else(|failure| panic!("{name}: {failure}"));
+            let (start, summary) = ran::<3, 2>(&mechanism, &mechanism.start(), &options, &name);
             assert_eq!(summary.passages, Some(6), "{name}");
             let turned = summary.end.q[0] - start.q[0];
             assert!((turned - 20.0).abs() < 1e-6, "{name}: {turned}");
@@ -136,15 +142,14 @@ fn implicit_methods_pass_after_many_turns() {
         for j in [0, 1] {
             guess.q[j].value += core::f64::consts::TAU * turns;
         }
-        let start = assemble(mechanism, &guess, 0.0).expect("a start");
         for method in [Method::Radau5, Method::Radau9] {
             let options = Options {
                 method,
                 ..Options::dop853(0.02, 1e-8)
             };
-            let ran = simulate(mechanism, &start, &options, &mut []);
-            let summary = ran.unwrap_or_else(|failure| panic!("{turns} turns: {failure}"));
-            assert_eq!(summary.passages, Some(6), "{turns} turns, {method:?}");
+            let name = format!("{turns} turns, {method:?}");
+            let (start, summary) = ran(mechanism, &guess, &options, &name);
+            assert_eq!(summary.passages, Some(6), "{name}");
             let turned = summary.end.q[0] - start.q[0];
             assert!((turned - 20.0).abs() < 1e-5, "{turns} turns: {turned}");
         }
@@ -158,9 +163,8 @@ fn a_loop_on_a_belt_begins_and_goes_on_as_one_at_rest() {
     let moved = |far: f64| {
         let mut mechanism = BeltParallelogram::<f64>::default();
         mechanism.parameters.far = far;
-        let mechanism: &dyn Whole<f64, 6, 5> = &mechanism;
-        let start = assemble(mechanism, &mechanism.start(), 0.0)
-            .unwrap_or_else(|failure| panic!("{far:e} m off: {failure}"));
+        let (options, name) = (Options::dop853(3.0, 1e-9), format!("{far:e} m off"));
+        let (start, summary) = ran::<6, 5>(&mechanism, &mechanism.start(), &options, &name);
         let crank = [start.v[2] - 10.0, start.v[3]];
         let (sin, cos) = 0.5_f64.sin_cos();
         let off = (crank[0] - 3.0 * cos)
@@ -169,9 +173,7 @@ fn a_loop_on_a_belt_begins_and_goes_on_as_one_at_rest() {
         assert!(off < 1e-7, "{far:e} m off: {crank:?}");
         let same = (start.v[2] - start.v[4]).abs() + (start.v[3] - start.v[5]).abs();
         assert!(same < 1e-7, "{far:e} m off: {}", start.v);
-        let ran = simulate(mechanism, &start, &Options::dop853(3.0, 1e-9), &mut []);
-        ran.unwrap_or_else(|failure| panic!("{far:e} m off: {failure}"))
-            .passages
+        summary.passages
     };
     for far in [0.0, 3.6e3, 3.6e4, 1e5] {
         assert_eq!(moved(far), Some(25), "{far:e} m off");
@@ -182,14 +184,17 @@ fn a_loop_on_a_belt_begins_and_goes_on_as_one_at_rest() {
 #[test]
 fn a_motion_may_begin_in_a_sharp_bend() {
     let mechanism: &dyn Whole<f64, 2, 1> = &SharpCorner::<f64>::default();
-    let start = assemble(mechanism, &mechanism.start(), 0.0).expect("a start");
     for method in [Method::Dop853, Method::Radau5] {
         let options = Options {
             method,
             ..Options::dop853(3.0, 1e-9)
         };
-        let ran = simulate(mechanism, &start, &options, &mut []);
-        let summary = ran.unwrap_or_else(|failure| panic!("{method:?}: {failure}"));
+        let (_, summary) = ran(
+            mechanism,
+            &mechanism.start(),
+            &options,
+            &format!("{method:?}"),
+        );
         assert_eq!(summary.passages, Some(1), "{method:?}");
         let [x, y] = summary.end.q.into();
         let (along, aside) = (x.hypot(y) - 3.0, y - x.hypot(1e-6));
